@@ -2,8 +2,8 @@
 """The operations that shader formulas are written over.
 
 A formula takes `ops` as its first argument and uses the operators + - * / on its values and the functions
-below. `NumpyOps` evaluates it on arrays; `nodes.graph.GraphOps` emits the same formula as shader nodes, so the
-reference and the shader cannot drift apart. Only what a shader's math nodes can do is here: there is no erf.
+below. `NumpyOps` evaluates it on arrays; `nodes.graph.GraphOps` emits the same formula as shader nodes, so
+the reference and the shader cannot drift apart. Only what a shader's math nodes can do is here: no erf.
 """
 
 from typing import Any, Protocol
@@ -25,7 +25,7 @@ class Ops(Protocol):
         """1 where a < b, else 0."""
 
     def where(self, condition, if_true, if_false) -> Any:
-        """if_true where condition is 1, if_false where it is 0; both are evaluated, so both must be finite."""
+        """if_true where condition is 1, if_false where it is 0; both are evaluated: both must be finite."""
 
     def label(self, value, name: str) -> Any:
         """The value itself, named for whoever reads the node tree."""

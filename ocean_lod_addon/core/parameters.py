@@ -113,7 +113,7 @@ def parameters_of(settings) -> dict[str, Parameter]:
 
 
 def validate(settings) -> None:
-    """Raise `OutOfRangeError` for the first parameter of `settings` that is not allowed; `__post_init__` calls it."""
+    """Raise `OutOfRangeError` for the first setting that is not allowed; for `__post_init__` to call."""
     for name, parameter in parameters_of(settings).items():
         check(name, getattr(settings, name), parameter)
 
