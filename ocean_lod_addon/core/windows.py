@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far from the centre of the plane each wave is geometry.
+
+Every wave has one smooth window, a function of position alone: 1 near the centre, 0 beyond the distance where
+the mesh stops resolving the wave. It is a product of a window in x and one in y, so that it rides along in the
+frame kernel's matrix product, and it knows nothing of levels, so that it is continuous across them.
+"""
+
+import numpy as np
+
+from .lod import Grid
+
+FADE_START = 0.5
+"""A window begins to fall at this share of its reach. Half the reach is one whole level of the plane."""
+
+
+def window_reach(grid: Grid, wavelength) -> np.ndarray:
+    """Distance from the centre at which a wave has left the geometry, m, for wavelengths in m.
+
+    Just outside a distance d the mesh can be as coarse as h = 4 d / cells (a level begins where the finer one's
+    half extent, cells/2 half-spacings, ends). The wave still has `samples_per_wavelength` vertices per
+    wavelength there if d <= wavelength cells / (4 samples_per_wavelength).
+    """
+    return np.asarray(wavelength) * (grid.cells / (4.0 * grid.samples_per_wavelength))
+
+
+def window(distance, reach) -> np.ndarray:
+    """The window at a distance (>= 0, m) along one axis for a wave of this reach (m); they broadcast.
+
+    A quintic step: 1 up to FADE_START reach, 0 from reach on, with continuous first and second derivatives, so
+    that neither the surface nor its shading shows where a wave fades.
+    """
+    u = np.clip((reach - distance) / (reach * (1.0 - FADE_START)), 0.0, 1.0)
+    return u * u * u * (u * (6.0 * u - 15.0) + 10.0)
