@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# `make demo` and `make test` need nothing prepared: each makes the environments it uses, in .env/.
+
+# Any Python from 3.9 on can run tools/environment.py; names that are shims without a version behind them are skipped.
+PYTHON ?= $(shell for p in python3 python3.13 python3.12 python3.11 /usr/bin/python3; do \
+	"$$p" -c 'import sys; sys.exit(sys.version_info < (3, 9))' >/dev/null 2>&1 && echo "$$p" && break; done)
+NEED_PYTHON = $(error Python 3.9 or later is missing: install python3 and its venv module \
+	(apt install python3-venv, dnf install python3, brew install python) and run make again)
+MAKE_ENVIRONMENT = $(or $(strip $(PYTHON)),$(NEED_PYTHON)) tools/environment.py
+
+BLENDER_5.2 = .env/blender-5.2/bin/python
+BLENDER_4.5 = .env/blender-4.5/bin/python
+
+# What `make demo` renders. Time on two cores is nearly proportional to samples x pixels x frames.
+DEMO_PRESET ?= moderate
+STILL_SAMPLES ?= 64
+FILM_FRAMES ?= 1:48
+FILM_RESOLUTION ?= 480x270
+FILM_SAMPLES ?= 8
+
+# Passed on to pytest, for example: make test TESTS="tests/core -k dispersion"
+TESTS ?=
+
+.PHONY: help demo test test-5.2 test-4.5 lint bench zip clean environment-blender-5.2 environment-blender-4.5 \
+	environment-lint
+
+help:
+	@echo 'make demo    render a still and a short film of the sea to out/'
+	@echo 'make test    run all tests on Blender 5.2 and on Blender 4.5'
+	@echo 'make lint    check the style of the code'
+	@echo 'make bench   measure the time a frame takes'
+	@echo 'make zip     build the extension, to install in Blender, in dist/'
+	@echo 'make clean   remove the environments and everything that was built'
+
+demo: environment-blender-5.2
+	@mkdir -p out
+	$(BLENDER_5.2) -m ocean_lod_addon render --preset $(DEMO_PRESET) --engine CYCLES \
+		--resolution 960x540 --samples $(STILL_SAMPLES) --output out/ocean_still.png
+	$(BLENDER_5.2) -m ocean_lod_addon render --preset $(DEMO_PRESET) --engine CYCLES \
+		--frames $(FILM_FRAMES) --resolution $(FILM_RESOLUTION) --samples $(FILM_SAMPLES) --output out/ocean_film.mp4
+	@echo
+	@echo 'Still: $(CURDIR)/out/ocean_still.png'
+	@echo 'Film:  $(CURDIR)/out/ocean_film.mp4'
+
+test: test-5.2 test-4.5
+
+test-5.2: environment-blender-5.2
+	$(BLENDER_5.2) tools/run_tests.py $(TESTS)
+
+test-4.5: environment-blender-4.5
+	$(BLENDER_4.5) tools/run_tests.py $(TESTS)
+
+lint: environment-lint
+	.env/lint/bin/python -m ruff check .
+
+bench: environment-blender-5.2
+	$(BLENDER_5.2) -m ocean_lod_addon bench
+
+zip: environment-blender-5.2
+	$(BLENDER_5.2) tools/extension.py
+
+clean:
+	rm -rf .env dist out
+
+environment-blender-5.2 environment-blender-4.5 environment-lint: environment-%:
+	@$(MAKE_ENVIRONMENT) $*

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ocean LOD: a physically calibrated sea for Blender.
+
+Importing this package loads neither bpy nor NumPy; `register()` loads what Blender needs. Imports point
+downward only: ui and cli -> scene, nodes -> core (tests/test_architecture.py holds them to it).
+"""
+
+
+def register() -> None:
+    """Make the operator, the panels and the frame-change handler known to Blender."""
+    from . import scene, ui
+
+    scene.register()
+    ui.register()
+
+
+def unregister() -> None:
+    """Undo `register()`, in the reverse order."""
+    from . import scene, ui
+
+    ui.unregister()
+    scene.unregister()
