@@ -15,6 +15,9 @@ class Ops(Protocol):
     """What a shader formula may use. Values are scalars per shading point, or per array element."""
 
     def constant(self, value: float) -> Any: ...
+    def multiply_add(self, a, b, c) -> Any:
+        """a b + c, one math node."""
+
     def sqrt(self, a) -> Any: ...
     def exp(self, a) -> Any: ...
     def absolute(self, a) -> Any: ...
@@ -40,6 +43,9 @@ class NumpyOps:
     def constant(self, value):
         return self.dtype.type(value)
 
+    def multiply_add(self, a, b, c):
+        return a * b + c
+
     def sqrt(self, a):
         return np.sqrt(a)
 
@@ -62,7 +68,7 @@ class NumpyOps:
         return np.less(a, b).astype(self.dtype)
 
     def where(self, condition, if_true, if_false):
-        return np.where(np.asarray(condition) > 0.5, if_true, if_false)
+        return np.where(np.asarray(condition) > 0.5, if_true, if_false).astype(self.dtype, copy=False)
 
     def label(self, value, name):
         return value
