@@ -223,12 +223,12 @@ def requirements_text(path):
     return text + "".join(requirements_text(path.parent / name) for name in included)
 
 
-def is_complete(folder, fingerprint):
+def is_complete(folder, version, fingerprint):
     """Was this environment finished, from these requirements, and does its interpreter still run?"""
     stamp = folder / "complete"
     if not stamp.exists() or stamp.read_text(encoding="utf-8") != fingerprint:
         return False
-    return subprocess.run([folder / "bin/python", "-c", ""], capture_output=True, check=False).returncode == 0
+    return working_interpreter(folder / "bin/python", version) is not None
 
 
 def build(folder, interpreter, requirements, fingerprint):
@@ -266,7 +266,7 @@ def ensure(name):
     folder = ENVIRONMENTS / name
     requirements = ROOT / "tools" / f"requirements-{name}.txt"
     fingerprint = hashlib.sha256(f"{version}\n{requirements_text(requirements)}".encode()).hexdigest()
-    complete = is_complete(folder, fingerprint)
+    complete = is_complete(folder, version, fingerprint)
     python = folder / "bin/python"
     interpreter = python if complete else find_interpreter(version) or fetch_interpreter(version)
     if name.startswith("blender"):
