@@ -19,7 +19,7 @@ MAY_IMPORT = {
     "nodes": {"core", "nodes"},
     "scene": {"core", "scene"},
     "ui": {"core", "nodes", "scene", "ui"},
-    "cli": {"core", "nodes", "scene", "ui", "cli"},
+    "cli": {"core", "nodes", "scene", "ui", "cli", "__init__"},
     "__init__": {"scene", "ui"},
     "__main__": {"cli"},
 }
@@ -57,7 +57,9 @@ def part_named(parts: list[str], level: int, path: Path) -> str:
     """The part of the package that a relative import of `level` dots leads to."""
     folder = path.parents[level - 1]
     assert folder == PACKAGE or PACKAGE in folder.parents, f"{name_of(path)} imports from outside the package"
-    return (*folder.relative_to(PACKAGE).parts, *parts)[0]
+    part = (*folder.relative_to(PACKAGE).parts, *parts)[0]
+    is_module = (PACKAGE / part).is_dir() or (PACKAGE / f"{part}.py").exists()
+    return part if is_module else "__init__"  # else a function of the package itself
 
 
 def imports_of(path: Path, nodes: Iterator[ast.AST]) -> Iterator[tuple[str, bool, int]]:
