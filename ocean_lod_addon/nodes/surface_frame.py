@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Directions at a shading point as the optics formulas want them: components along the rougher axis, the
+smoother axis and the normal."""
+
+from .graph import Graph, Vector
+
+
+class SurfaceFrame:
+    """The orthonormal axes at a shading point: rougher axis, smoother axis, normal (of the resolved surface)."""
+
+    def __init__(self, graph: Graph, tangent: Vector):
+        self._geometry = graph.node("ShaderNodeNewGeometry")
+        self._graph = graph
+        normal = graph.output_of(self._geometry, "Normal")
+        along_normal = graph.label(normal * normal.dot(tangent), "tangent along normal")
+        x = graph.label((tangent - along_normal).normalized(), "rougher axis")
+        y = graph.label(normal.cross(x), "smoother axis")
+        self._axes = (x, y, normal)
+
+    def components(self, direction: Vector):
+        """(x, y, z) of a world direction."""
+        return tuple(axis.dot(direction) for axis in self._axes)
+
+    def view(self):
+        """(x, y, z) of the direction to the viewer."""
+        return self.components(self._graph.output_of(self._geometry, "Incoming"))
