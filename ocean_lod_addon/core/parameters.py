@@ -14,7 +14,7 @@ from numbers import Integral, Real
 from .errors import OceanError, OutOfRangeError
 
 _METADATA_KEY = "parameter"
-_FILE_SUFFIX = {"": "", "m": "_m", "s": "_s", "m/s": "_m_s", "rad": "_deg", "ms": "_ms"}
+_FILE_SUFFIX = {"": "", "m": "_m", "s": "_s", "m/s": "_m_s", "rad": "_deg", "mm": "_mm"}
 
 
 @dataclass(frozen=True)
@@ -186,11 +186,11 @@ def from_file_value(name: str, value: object, parameter: Parameter) -> object:
     return float(value) if isinstance(parameter, Number) else value
 
 
-def settings_from_mapping(cls, mapping: dict, where: str):
+def settings_from_mapping(cls, mapping: dict, where: str, **other_fields):
     """An instance of the settings class `cls` from a file's mapping; missing keys keep their defaults.
 
-    `where` names the file for the error line. Raises `OceanError` for an unknown key, a wrong type or a
-    value out of range.
+    `where` names the file for the error line; `other_fields` are fields that are no parameters. Raises
+    `OceanError` for an unknown key, a wrong type or a value out of range.
     """
     if not isinstance(mapping, dict):
         raise OceanError(f"{where}: expected a table of settings, found {type(mapping).__name__}")
@@ -205,7 +205,7 @@ def settings_from_mapping(cls, mapping: dict, where: str):
         except OutOfRangeError as error:
             raise OceanError(f"{where}: {error}") from None
     try:
-        return cls(**values)
+        return cls(**values, **other_fields)
     except OceanError as error:
         raise OceanError(f"{where}: {error}") from None
 

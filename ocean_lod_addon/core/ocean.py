@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything one ocean is made from, and the surface evaluated from it."""
+
+import hashlib
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .discretise import discretise
+from .kernel import FrameKernel
+from .lod import Grid
+from .sea import Sea
+from .slope_budget import unresolved_slope_variance
+from .waves import WaveSet
+
+
+@dataclass(frozen=True)
+class Ocean:
+    """The settings that the surface of one ocean depends on, time aside."""
+
+    sea: Sea = field(default_factory=Sea)
+    grid: Grid = field(default_factory=Grid)
+
+    @property
+    def fingerprint(self) -> str:
+        """A short text that two oceans share exactly if their settings are equal, on every machine."""
+        return hashlib.blake2b(repr(self).encode(), digest_size=12).hexdigest()
+
+
+class Surface:
+    """The surface of an ocean: what is static once, what moves at any time."""
+
+    def __init__(self, ocean: Ocean, contraction: str | None = None):
+        self.ocean = ocean
+        self.waves: WaveSet = discretise(ocean.sea, ocean.grid.shortest_wavelength)
+        self._kernel = FrameKernel(ocean.grid, self.waves, contraction)
+
+    @property
+    def vertex_count(self) -> int:
+        """Number of vertices."""
+        return self._kernel.vertex_count
+
+    def positions(self, time: float, out: np.ndarray) -> None:
+        """Write the vertices' positions at `time` (s) into `out`, (vertex_count, 3) float32, in m."""
+        self._kernel.evaluate(time, out)
+
+    def slope_variance(self) -> np.ndarray:
+        """Unresolved slope variance (xx, yy, xy) of each vertex, (vertex_count, 3) float32; static in time."""
+        return unresolved_slope_variance(self.ocean.sea, self.ocean.grid, self.waves)

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ocean objects: making them, keeping them in step with their settings, moving them with time.
+
+Geometry and attributes are created here, from operators and property changes. The frame-change handler only
+writes arrays into what is there: Blender may call it from a worker thread.
+"""
+
+import functools
+import itertools
+import sys
+import threading
+
+import bpy
+import numpy as np
+
+from ..core.errors import OceanError
+from ..core.lod import Grid
+from ..core.material_settings import MaterialSettings
+from ..core.ocean import Ocean, Surface
+from ..core.ocean_time import sea_time
+from ..core.sea import Sea
+from ..nodes.material import MATERIAL_KEY, ensure_material, find_material
+from . import mesh as mesh_arrays
+from . import properties
+
+_MODIFIER_NAME = "Ocean LOD"
+
+_problems: dict[int, str] = {}
+"""What keeps an ocean from moving, by the object's session id; for the panel, and to report it only once."""
+
+_evaluation = threading.Lock()
+"""A surface has scratch memory: one evaluation at a time."""
+
+
+@functools.lru_cache(maxsize=8)
+def _surface(ocean: Ocean) -> Surface:
+    """The surface of an ocean, kept while the same settings are in use."""
+    return Surface(ocean)
+
+
+@functools.lru_cache(maxsize=2)
+def _buffer(vertex_count: int) -> np.ndarray:
+    return np.empty((vertex_count, 3), np.float32)
+
+
+def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"):
+    """A new ocean object in the active collection, at its surface of the current frame. Raises OceanError."""
+    ob = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+    try:
+        ob.ocean_lod.is_ocean = True
+        properties.write_sea(sea, ob.ocean_lod)
+        properties.write_grid(grid, ob.ocean_lod)
+        properties.write_material(material, ob.ocean_lod)
+        _add_deform_modifier(ob)
+        _rebuild_and_move(ob, scene)
+        _apply_material(ob)
+    except OceanError:
+        bpy.data.meshes.remove(ob.data)
+        raise
+    # Handlers of a render run while the window draws; without the lock Blender can read a mesh being written.
+    scene.render.use_lock_interface = True
+    return ob
+
+
+def _add_deform_modifier(ob):
+    """A modifier that does nothing, but tells Blender that the mesh deforms.
+
+    Without one, Alembic and USD export a static mesh and Cycles gives no motion blur to moved vertices.
+    """
+    modifier = ob.modifiers.new(_MODIFIER_NAME, "SMOOTH")
+    modifier.iterations = 0
+
+
+def is_ocean(ob) -> bool:
+    """Whether an object is one of ours."""
+    return ob is not None and ob.type == "MESH" and ob.ocean_lod.is_ocean
+
+
+def visible_oceans(scene, depsgraph) -> list:
+    """The original ocean objects that `depsgraph` shows: it leaves out what is hidden for its purpose."""
+    return [ob.original for ob in depsgraph.objects if is_ocean(ob)]
+
+
+def scene_sea_time(evaluated, scene) -> float:
+    """The clock of an (evaluated) ocean, s, at the scene's current frame and sub-frame."""
+    render = scene.render
+    return sea_time(
+        properties.read_time(evaluated.ocean_lod),
+        scene.frame_current_final,
+        render.fps / render.fps_base,
+        render.frame_map_old / render.frame_map_new,
+    )
+
+
+def update(ob, scene, depsgraph) -> None:
+    """Move an ocean to the scene's current frame. Raises OceanError if it can not be moved.
+
+    Settings are read from the evaluated object: during a render, animation reaches only that one.
+    """
+    evaluated = ob.evaluated_get(depsgraph)
+    _write_surface(ob, properties.read_ocean(evaluated.ocean_lod), scene_sea_time(evaluated, scene))
+
+
+def update_reporting(ob, scene, depsgraph) -> None:
+    """`update`, for Blender's handlers: a problem is reported once on the terminal, and the ocean stays still."""
+    try:
+        update(ob, scene, depsgraph)
+    except Exception as error:  # noqa: BLE001 - nothing may be raised into Blender's frame loop
+        _report(ob, error)
+    else:
+        _problems.pop(ob.session_uid, None)
+
+
+def problem(ob) -> str:
+    """What keeps an ocean from moving, in one line, or an empty text."""
+    return _problems.get(ob.session_uid, "")
+
+
+def _report(ob, error):
+    message = str(error) if isinstance(error, OceanError) else f"{type(error).__name__}: {error}"
+    if _problems.get(ob.session_uid) != message:
+        print(f"Ocean LOD: {ob.name} stays still: {message}", file=sys.stderr, flush=True)
+    _problems[ob.session_uid] = message
+
+
+def refresh(ob, scene) -> None:
+    """Bring an ocean in step with its settings, geometry included; for operators and changed properties."""
+    if not is_ocean(ob):
+        return
+    try:
+        _rebuild_and_move(ob, scene)
+    except OceanError as error:
+        _report(ob, error)
+    else:
+        _problems.pop(ob.session_uid, None)
+
+
+def refresh_material(ob, scene) -> None:
+    """Bring an ocean's material in step with its settings."""
+    if is_ocean(ob):
+        _apply_material(ob)
+
+
+def _rebuild_and_move(ob, scene):
+    ocean = properties.read_ocean(ob.ocean_lod)
+    if not mesh_arrays.has_geometry_for(ob.data, ocean.grid.vertex_count):
+        mesh_arrays.build_topology(ob.data, ocean.grid)
+    _write_surface(ob, ocean, scene_sea_time(ob, scene))
+
+
+def _write_surface(ob, ocean, time):
+    mesh = ob.data
+    surface = _surface(ocean)
+    if not mesh_arrays.has_geometry_for(mesh, surface.vertex_count):
+        raise OceanError(
+            f"the mesh has {len(mesh.vertices)} vertices, its settings make {surface.vertex_count}; "
+            "change any of its Mesh settings to rebuild it"
+        )
+    if mesh_arrays.static_fingerprint(mesh) != ocean.fingerprint:
+        mesh_arrays.write_slope_variance(mesh, surface.slope_variance())
+        mesh_arrays.set_static_fingerprint(mesh, ocean.fingerprint)
+    with _evaluation:
+        positions = _buffer(surface.vertex_count)
+        surface.positions(time, positions)
+        mesh_arrays.write_positions(mesh, positions)
+
+
+def _apply_material(ob):
+    material = ensure_material(_material_name(ob), properties.read_material(ob.ocean_lod))
+    if not ob.data.materials:
+        ob.data.materials.append(material)
+
+
+def _material_name(ob):
+    """The name that the ocean's material was made under; for an ocean without one, a name not in use."""
+    for material in ob.data.materials:
+        if material is not None and MATERIAL_KEY in material:
+            return material[MATERIAL_KEY]
+    numbered = (f"{ob.name} {number}" for number in itertools.count(2))
+    names = itertools.chain([ob.name], numbered)
+    return next(name for name in names if _is_free(find_material(name)))
+
+
+def _is_free(material):
+    return material is None or material.users == 0

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an ocean object remembers: its settings, as Blender properties that can be keyed, saved and undone."""
+
+import contextlib
+
+import bpy
+
+from ..core.lod import Grid
+from ..core.material_settings import MaterialSettings
+from ..core.ocean import Ocean
+from ..core.ocean_time import OceanTime
+from ..core.sea import Sea, WaveSystem
+from . import rna
+
+
+class _Changes:
+    """Whom to tell that a property has changed; `register` sets it, `many_changes` silences it for a while."""
+
+    def __init__(self):
+        self.surface = self.material = None
+        self.silenced = False
+
+
+_changes = _Changes()
+
+
+@contextlib.contextmanager
+def many_changes():
+    """Within this context changed properties do not refresh the ocean one by one; refresh it once afterwards."""
+    before, _changes.silenced = _changes.silenced, True
+    try:
+        yield
+    finally:
+        _changes.silenced = before
+
+
+def _surface_changed(group, context):
+    if not _changes.silenced:
+        _changes.surface(group.id_data, context.scene)
+
+
+def _material_changed(group, context):
+    if not _changes.silenced:
+        _changes.material(group.id_data, context.scene)
+
+
+_GRID_FIELDS = ("cell_size", "cells", "levels", "samples_per_wavelength")
+
+WaveSystemProperties = rna.property_group(
+    "OCEAN_LOD_WaveSystemProperties", rna.annotations(WaveSystem, _surface_changed)
+)
+SeaProperties = rna.property_group(
+    "OCEAN_LOD_SeaProperties",
+    rna.annotations(Sea, _surface_changed)
+    | {
+        "systems": bpy.props.CollectionProperty(
+            name="Wave Systems", description="The wind sea and the swells", type=WaveSystemProperties
+        ),
+        "active_system": bpy.props.IntProperty(
+            name="Active Wave System", description="The wave system shown in the panel", min=0, options=set()
+        ),
+    },
+)
+GridProperties = rna.property_group(
+    "OCEAN_LOD_GridProperties", rna.annotations(Grid, _surface_changed, not_animatable=_GRID_FIELDS)
+)
+TimeProperties = rna.property_group("OCEAN_LOD_TimeProperties", rna.annotations(OceanTime, _surface_changed))
+MaterialProperties = rna.property_group(
+    "OCEAN_LOD_MaterialProperties", rna.annotations(MaterialSettings, _material_changed)
+)
+OceanProperties = rna.property_group(
+    "OCEAN_LOD_OceanProperties",
+    {
+        "is_ocean": bpy.props.BoolProperty(
+            name="Is an Ocean", description="Whether Ocean LOD moves this object's vertices", options=set()
+        ),
+        "sea": bpy.props.PointerProperty(type=SeaProperties),
+        "grid": bpy.props.PointerProperty(type=GridProperties),
+        "time": bpy.props.PointerProperty(type=TimeProperties),
+        "material": bpy.props.PointerProperty(type=MaterialProperties),
+    },
+)
+
+_CLASSES = (
+    WaveSystemProperties,
+    SeaProperties,
+    GridProperties,
+    TimeProperties,
+    MaterialProperties,
+    OceanProperties,
+)
+
+
+def read_ocean(properties) -> Ocean:
+    """The ocean that an object's properties describe. Raises OceanError if they do not go together."""
+    systems = tuple(rna.read(WaveSystem, group) for group in properties.sea.systems)
+    return Ocean(rna.read(Sea, properties.sea, systems=systems), rna.read(Grid, properties.grid))
+
+
+def read_time(properties) -> OceanTime:
+    """The clock settings."""
+    return rna.read(OceanTime, properties.time)
+
+
+def read_material(properties) -> MaterialSettings:
+    """The material settings."""
+    return rna.read(MaterialSettings, properties.material)
+
+
+def write_sea(sea: Sea, properties) -> None:
+    """Put a sea into an object's properties; the caller refreshes the ocean."""
+    with many_changes():
+        rna.write(sea, properties.sea)
+        properties.sea.systems.clear()
+        for system in sea.systems:
+            rna.write(system, properties.sea.systems.add())
+        properties.sea.active_system = 0
+
+
+def write_grid(grid: Grid, properties) -> None:
+    """Put the plane's shape into an object's properties; the caller refreshes the ocean."""
+    with many_changes():
+        rna.write(grid, properties.grid)
+
+
+def write_material(material: MaterialSettings, properties) -> None:
+    """Put material settings into an object's properties; the caller refreshes the ocean."""
+    with many_changes():
+        rna.write(material, properties.material)
+
+
+def register(surface_changed, material_changed):
+    """Register the property groups and attach them to every object.
+
+    The arguments are called with (object, scene) after a property of an object's surface or material changed.
+    """
+    _changes.surface, _changes.material = surface_changed, material_changed
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Object.ocean_lod = bpy.props.PointerProperty(type=OceanProperties)
+
+
+def unregister():
+    """Undo `register`."""
+    del bpy.types.Object.ocean_lod
+    for cls in reversed(_CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Blender properties made from the settings classes of core, and settings read back from them.
+
+Names, ranges, units and tooltips come from `core.parameters` alone.
+"""
+
+import typing
+
+import bpy
+import numpy as np
+
+from ..core.parameters import Choice, Integer, Number, Parameter, Switch, Text, parameters_of
+
+_DECIMALS = 4
+
+
+def annotations(settings_class, update, not_animatable=()) -> dict:
+    """Property annotations for a PropertyGroup that holds a settings class.
+
+    `update` is called when a property changes; names in `not_animatable` can not be keyed.
+    """
+    return {
+        name: _property(parameter, update, {"ANIMATABLE"} if name not in not_animatable else set())
+        for name, parameter in parameters_of(settings_class).items()
+    }
+
+
+def _property(parameter: Parameter, update, options):
+    common = {
+        "name": parameter.label,
+        "description": parameter.description,
+        "default": parameter.default,
+        "update": update,
+        "options": options,
+    }
+    match parameter:
+        case Number(unit="rad"):
+            return bpy.props.FloatProperty(
+                **common, min=parameter.minimum, max=parameter.maximum, subtype="ANGLE", precision=_DECIMALS
+            )
+        case Number():
+            common |= _with_unit(parameter)
+            return bpy.props.FloatProperty(
+                **common,
+                min=parameter.minimum,
+                max=parameter.maximum,
+                soft_max=parameter.maximum if parameter.soft_maximum is None else parameter.soft_maximum,
+                precision=_DECIMALS,
+            )
+        case Integer():
+            common |= _with_unit(parameter)
+            return bpy.props.IntProperty(**common, min=parameter.minimum, max=parameter.maximum)
+        case Choice():
+            items = [(option.key, option.label, option.description) for option in parameter.options]
+            return bpy.props.EnumProperty(**common, items=items)
+        case Switch():
+            return bpy.props.BoolProperty(**common)
+        case Text():
+            return bpy.props.StringProperty(**common)
+    raise TypeError(f"{type(parameter).__name__} is not a kind of parameter")
+
+
+def _with_unit(parameter):
+    """Name with the unit in it: values are SI whatever the scene's unit scale, so the panel says which."""
+    if not parameter.unit:
+        return {}
+    return {"name": f"{parameter.label} ({parameter.unit})"}
+
+
+def read(settings_class, group, **other_fields):
+    """The settings held by a PropertyGroup made with `annotations`; `other_fields` are passed on as they are.
+
+    Raises OceanError if the values do not go together (single values are kept in range by Blender).
+    """
+    values = {
+        name: _python_value(getattr(group, name), parameter)
+        for name, parameter in parameters_of(settings_class).items()
+    }
+    return settings_class(**values, **other_fields)
+
+
+def _python_value(value, parameter):
+    """The number a person typed: Blender keeps float32, whose shortest decimal form is what was meant."""
+    if isinstance(parameter, Number):
+        return min(max(float(str(np.float32(value))), parameter.minimum), parameter.maximum)
+    return value
+
+
+def write(settings, group) -> None:
+    """Put settings into a PropertyGroup made with `annotations` for their class."""
+    for name in parameters_of(settings):
+        setattr(group, name, getattr(settings, name))
+
+
+def property_group(name: str, annotations_: typing.Mapping) -> type:
+    """A PropertyGroup class with these property annotations."""
+    return type(name, (bpy.types.PropertyGroup,), {"__annotations__": dict(annotations_)})

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an artist sees and clicks: the Add menu entry, operators and panels."""
+
+import bpy
+
+from . import menus, operators, panels
+
+_CLASSES = (*operators.CLASSES, *panels.CLASSES)
+
+
+def register():
+    """Register operators and panels, then the menu entry."""
+    for cls in _CLASSES:
+        bpy.utils.register_class(cls)
+    menus.register()
+
+
+def unregister():
+    """Undo `register`, in reverse."""
+    menus.unregister()
+    for cls in reversed(_CLASSES):
+        bpy.utils.unregister_class(cls)
