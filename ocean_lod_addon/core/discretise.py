@@ -27,6 +27,7 @@ from .errors import OutOfRangeError
 from .quadrature import BinNodes, bin_nodes
 from .rng import stream_seed, uniform
 from .sea import Sea, WaveSystem
+from .spectra.moments import NO_ENERGY_BELOW
 from .spectra.table import Spectrum, spectrum_of
 from .spreading.sampling import direction_at_share, mean_cos2
 from .spreading.table import Spreading, spreading_of
@@ -34,9 +35,6 @@ from .waves import TWO_PI, WaveSet
 
 LOWEST_EDGE = 0.7
 """Where the geometric bins start, over the peak frequency: 0.55 % of a Pierson-Moskowitz sea's energy is below."""
-
-NO_ENERGY_BELOW = 0.15
-"""Over the peak frequency; from here down every spectrum is below 1e-50 of its peak. Keeps omega^-5 finite."""
 
 SMALLEST_BIN_ENERGY = 1e-30
 """m^2; a bin with less is empty: its wave has no height, and dividing by its energy would make it nonsense."""
@@ -121,7 +119,7 @@ def system_waves(sea: Sea, index: int, edges: np.ndarray, per_band: int) -> tupl
     spectrum = spectrum_of(system, water)
     if spectrum is None:
         return None
-    spreading = spreading_of(system, spectrum)
+    spreading = spreading_of(system, spectrum, water)
     bins = integrate_bins(spectrum, spreading, system.directional_cutoff, water, edges)
     if not np.any(bins.energy > SMALLEST_BIN_ENERGY):
         return None

@@ -7,6 +7,9 @@ import numpy as np
 
 TWO_PI = 2.0 * np.pi
 
+LOOP_STEPS = 2.0**36
+"""Moments that a loop tells apart: far fewer than float64 does, so that rounded times fall on the same moment."""
+
 
 @dataclass(frozen=True, eq=False)
 class WaveSet:
@@ -52,11 +55,13 @@ class WaveSet:
         """Phases eps_i - omega_i t at the world's origin, rad, in [0, 2 pi), for `time` in s.
 
         With a loop the whole number of cycles n_i = omega_i T / 2 pi is taken exactly and only the fraction
-        of n_i t / T is kept, so that t and t + T give the same bits (THEORY section 3, perfect loop).
+        of n_i t / T is kept, with t / T rounded to LOOP_STEPS steps, so that t and t + T give the same bits
+        although both are rounded when a frame is divided by the frame rate (THEORY section 3, perfect loop).
         """
         if self.loop_period > 0.0:
             cycles = np.rint(self.angular_frequency * self.loop_period / TWO_PI)
-            turns = np.mod(cycles * np.mod(time / self.loop_period, 1.0), 1.0)
+            step = np.rint(np.mod(time / self.loop_period, 1.0) * LOOP_STEPS)
+            turns = np.mod(cycles * step, LOOP_STEPS) / LOOP_STEPS
         else:
             turns = np.mod(self.angular_frequency * time / TWO_PI, 1.0)
         return np.mod(self.phase - TWO_PI * turns, TWO_PI)

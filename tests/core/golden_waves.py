@@ -5,8 +5,12 @@ import numpy as np
 
 from ocean_lod_addon.core import dispersion, gerstner, rng
 from ocean_lod_addon.core.discretise import integrate_bins, looping_frequency, representative_waves
-from ocean_lod_addon.core.spectra import pierson_moskowitz
-from ocean_lod_addon.core.spreading import sampling, swop
+from ocean_lod_addon.core.spectra import pierson_moskowitz, two_parameter
+from ocean_lod_addon.core.spectra.jonswap import jonswap_from_height, jonswap_from_wind
+from ocean_lod_addon.core.spectra.moments import significant_wave_height, spectrum_moments
+from ocean_lod_addon.core.spectra.neumann import Neumann
+from ocean_lod_addon.core.spectra.tma import Tma, kitaigorodskii_factor
+from ocean_lod_addon.core.spreading import cos2s, sampling, swop
 from ocean_lod_addon.core.waves import TWO_PI, WaveSet
 from ocean_lod_addon.core.wind import wind_at_height
 
@@ -31,10 +35,6 @@ def _pm(given):
     return pierson_moskowitz.pierson_moskowitz_from_wind(given["U19.5"])
 
 
-def _significant_wave_height(m0):
-    return 4.0 * np.sqrt(m0)
-
-
 def _pm_moments(given):
     spectrum = _pm(given)
     m0, m1, m2 = (spectrum.moment(n) for n in range(3))
@@ -42,7 +42,7 @@ def _pm_moments(given):
         "m0": m0,
         "m1": m1,
         "m2": m2,
-        "Hs": _significant_wave_height(m0),
+        "Hs": significant_wave_height(m0),
         "omega_p": spectrum.peak_frequency,
         "gerstner_setdown_m": m2 / 9.81,
     }
@@ -73,6 +73,69 @@ def _pm_equal_energy_bins(given):
     return {
         "amplitude_each": np.sqrt(2.0 * spectrum.moment(0) / n),
         "omega_median": spectrum.frequency_below_which((np.arange(n) + 0.5) / n),
+    }
+
+
+def _two_parameter(kind):
+    def outputs(given):
+        decay = two_parameter.DECAY_FROM_PERIOD[kind](given["T"])
+        spectrum = two_parameter.two_parameter(given["Hs"], decay)
+        return {"S": spectrum.density(given["omega"]), "B": spectrum.B, "A": spectrum.A}
+
+    return outputs
+
+
+def _jonswap(given):
+    return jonswap_from_wind(given["U10"], given["fetch"], given["gamma"])
+
+
+def _jonswap_fetch(given):
+    spectrum = _jonswap(given)
+    m0 = spectrum_moments(spectrum)[0]
+    return {
+        "alpha": spectrum.alpha,
+        "omega_p": spectrum.peak_frequency,
+        "m0": m0,
+        "Hs": significant_wave_height(m0),
+    }
+
+
+def _jonswap_hs_exact(given):
+    spectrum = jonswap_from_height(given["Hs"], TWO_PI / given["Tp"], given["gamma"])
+    return {"S": spectrum.density(given["omega"])}
+
+
+def _neumann(given):
+    spectrum = Neumann(given["U7.5"])
+    return {
+        "S": spectrum.density(given["omega"]),
+        "m0": spectrum.variance,
+        "Hs": significant_wave_height(spectrum.variance),
+        "omega_p": spectrum.peak_frequency,
+    }
+
+
+def _tma(given):
+    spectrum = Tma(_jonswap(given), dispersion.Water(given["depth"]))
+    return {
+        "phi": kitaigorodskii_factor(given["omega"], spectrum.water),
+        "S": spectrum.density(given["omega"]),
+    }
+
+
+def _cos2s(given):
+    law = cos2s.constant_cos2s(given["s"])
+    return {
+        "D": law.density(1.0, given["theta"]),
+        "mean_cos_2theta": 2.0 * sampling.mean_cos2(law, 1.0, np.pi) - 1.0,
+    }
+
+
+def _mitsuyasu(given):
+    wind, peak = given["U10"], given["omega_p"]
+    return {
+        "s": cos2s.mitsuyasu_exponent(given["omega"], wind, peak),
+        "s_max": cos2s.mitsuyasu_largest_exponent(wind, peak),
     }
 
 
@@ -137,6 +200,16 @@ CASES = {
     "pm_hs": _pm_hs,
     "pm_geometric_bins": _pm_geometric_bins,
     "pm_equal_energy_bins": _pm_equal_energy_bins,
+    "issc_T1": _two_parameter("mean"),
+    "ittc_Tz": _two_parameter("zero_crossing"),
+    "bretschneider_Tp": _two_parameter("peak"),
+    "jonswap_fetch": _jonswap_fetch,
+    "jonswap_fetch_S": lambda given: {"S": _jonswap(given).density(given["omega"])},
+    "jonswap_hs_exact": _jonswap_hs_exact,
+    "neumann": _neumann,
+    "tma": _tma,
+    "cos2s": _cos2s,
+    "mitsuyasu_s": _mitsuyasu,
     "wind_height_loglaw_Cd": lambda given: {"Uz": wind_at_height(given["U10"], given["z"], given["Cd"])},
     "swop": _swop,
     "swop_inverse_cdf": _swop_inverse,

@@ -5,7 +5,8 @@ import numpy as np
 
 from .table import Spreading
 
-_NEWTON_STEPS = 40
+_LARGEST_STEPS = 60
+_CONVERGED = 1e-15
 
 
 def mean_cos2(spreading: Spreading, omega, cutoff: float) -> np.ndarray:
@@ -21,19 +22,25 @@ def share_within(spreading: Spreading, omega, cutoff: float) -> np.ndarray:
 def direction_at_share(spreading: Spreading, omega, share, cutoff: float = np.pi) -> np.ndarray:
     """The angle from the mean direction, rad, up to which the given share (0 to 1) of the energy lies.
 
-    Inverts the cumulative law of each pair (omega, share) by Newton's rule inside a shrinking bracket.
+    Inverts the cumulative law of each pair (omega, share) by Newton's rule inside a shrinking bracket; each pair
+    is independent of the others to the last bit.
     """
     omega, share = np.broadcast_arrays(np.asarray(omega, dtype=np.float64), np.asarray(share, dtype=np.float64))
     side = np.where(share < 0.5, -1.0, 1.0)
     target = 0.5 + np.abs(share - 0.5) * share_within(spreading, omega, cutoff)
     low, high = np.zeros(omega.shape), np.full(omega.shape, float(cutoff))
     theta = 0.5 * (low + high)
-    for _ in range(_NEWTON_STEPS):
+    running = np.ones(omega.shape, dtype=bool)
+    for _ in range(_LARGEST_STEPS):
         excess = spreading.cumulative(omega, theta) - target
         low, high = np.where(excess < 0.0, theta, low), np.where(excess < 0.0, high, theta)
         density = spreading.density(omega, theta)
         steep = density > 0.0
         newton = theta - np.where(steep, excess, 0.0) / np.where(steep, density, 1.0)
         inside = steep & (newton > low) & (newton < high)
-        theta = np.where(inside, newton, 0.5 * (low + high))
+        following = np.where(running, np.where(inside, newton, 0.5 * (low + high)), theta)
+        running = running & (np.abs(following - theta) > _CONVERGED)
+        theta = following
+        if not running.any():
+            break
     return side * theta

@@ -10,11 +10,15 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from ..constants import GRAVITY
+from ..dispersion import Water
 from ..parameters import Option
 from ..spectra.pierson_moskowitz import PIERSON_MOSKOWITZ_BETA
 from ..spectra.table import Spectrum
 from ..wind import PIERSON_MOSKOWITZ_HEIGHT, SWOP_HEIGHT, wind_ratio
-from . import swop
+from .cos2 import cosine_squared
+from .cos2s import constant_cos2s, mitsuyasu
+from .elfouhaily import elfouhaily_spreading
+from .swop import swop
 
 if TYPE_CHECKING:
     from ..sea import WaveSystem
@@ -34,15 +38,43 @@ class Spreading(Protocol):
 
 
 @dataclass(frozen=True)
+class Conditions:
+    """What a spreading law may depend on: U10 in m/s, the peak of the spectrum in rad/s, water, the exponent s."""
+
+    wind_speed: float
+    peak_frequency: float
+    water: Water
+    exponent: float
+
+
+@dataclass(frozen=True)
 class SpreadingKind:
-    """A row of the table; `build` takes the system, the wind U10 that fits it and its peak frequency."""
+    """A row of the table; `settings` are those of a wave system that the law alone depends on."""
 
     option: Option
-    build: Callable[[WaveSystem, float, float], Spreading]
+    source: str
+    build: Callable[[Conditions], Spreading]
+    settings: tuple[str, ...] = ()
 
 
-def _swop(system, wind_speed, peak_frequency):
-    return swop.swop(GRAVITY / (wind_speed * wind_ratio(SWOP_HEIGHT)))
+def _swop(conditions):
+    return swop(GRAVITY / (conditions.wind_speed * wind_ratio(SWOP_HEIGHT)))
+
+
+def _mitsuyasu(conditions):
+    return mitsuyasu(conditions.wind_speed, conditions.peak_frequency)
+
+
+def _cos2s(conditions):
+    return constant_cos2s(conditions.exponent)
+
+
+def _cos2(conditions):
+    return cosine_squared()
+
+
+def _elfouhaily(conditions):
+    return elfouhaily_spreading(conditions.wind_speed, conditions.peak_frequency, conditions.water)
 
 
 _KINDS = (
@@ -52,14 +84,42 @@ _KINDS = (
             "SWOP",
             "Measured in a wind sea from stereo photographs: long waves keep to the wind, short ones fan out",
         ),
+        "Cote et al. 1960",
         _swop,
+    ),
+    SpreadingKind(
+        Option(
+            "mitsuyasu",
+            "Mitsuyasu",
+            "Measured from a buoy: the waves at the peak keep to the wind best, longer and shorter ones fan out",
+        ),
+        "Mitsuyasu et al. 1975",
+        _mitsuyasu,
+    ),
+    SpreadingKind(
+        Option(
+            "cos2s", "Cos^2s", "The same fan for waves of all lengths, as wide as the exponent says; for swell"
+        ),
+        "Longuet-Higgins et al. 1963",
+        _cos2s,
+        ("spreading_exponent",),
+    ),
+    SpreadingKind(
+        Option("cos2", "Cos^2", "The same wide fan for waves of all lengths, none against the mean direction"),
+        "Pierson et al. 1955",
+        _cos2,
+    ),
+    SpreadingKind(
+        Option("elfouhaily", "Elfouhaily", "The fan that goes with the Elfouhaily spectrum, down to ripples"),
+        "Elfouhaily et al. 1997",
+        _elfouhaily,
     ),
 )
 
 SPREADINGS: dict[str, SpreadingKind] = {kind.option.key: kind for kind in _KINDS}
 
 
-def spreading_of(system: WaveSystem, spectrum: Spectrum) -> Spreading:
+def spreading_of(system: WaveSystem, spectrum: Spectrum, water: Water) -> Spreading:
     """The spreading law of a wave system with this spectrum.
 
     A system sized by its height has the wind that would raise a fully developed sea of its peak frequency: U5 of
@@ -67,7 +127,8 @@ def spreading_of(system: WaveSystem, spectrum: Spectrum) -> Spreading:
     """
     by_wind = system.sized_by == "wind"
     wind_speed = system.wind_speed if by_wind else fully_developed_wind(spectrum.peak_frequency)
-    return SPREADINGS[system.spreading].build(system, wind_speed, spectrum.peak_frequency)
+    conditions = Conditions(wind_speed, spectrum.peak_frequency, water, system.spreading_exponent)
+    return SPREADINGS[system.spreading].build(conditions)
 
 
 def fully_developed_wind(peak_frequency: float) -> float:
