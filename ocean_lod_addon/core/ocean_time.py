@@ -35,10 +35,7 @@ class OceanTime:
         validate(self)
 
 
-def sea_time(settings: OceanTime, frame: float, frames_per_second: float, frame_map_ratio: float = 1.0) -> float:
-    """The sea's clock, s, at a frame number with its sub-frame.
-
-    frame_map_ratio is the scene's time remapping, old frames per new frame, as Blender applies it to animation.
-    """
-    scene_time = settings.time if settings.source == "KEYED" else frame * frame_map_ratio / frames_per_second
+def sea_time(settings: OceanTime, frame: float, frames_per_second: float) -> float:
+    """The sea's clock, s, at a frame number with its sub-frame, after the scene's own time remapping."""
+    scene_time = settings.time if settings.source == "KEYED" else frame / frames_per_second
     return scene_time * settings.speed + settings.offset

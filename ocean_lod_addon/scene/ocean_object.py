@@ -82,14 +82,12 @@ def visible_oceans(scene, depsgraph) -> list:
 
 
 def scene_sea_time(evaluated, scene) -> float:
-    """The clock of an (evaluated) ocean, s, at the scene's current frame and sub-frame."""
-    render = scene.render
-    return sea_time(
-        properties.read_time(evaluated.ocean_lod),
-        scene.frame_current_final,
-        render.fps / render.fps_base,
-        render.frame_map_old / render.frame_map_new,
-    )
+    """The clock of an (evaluated) ocean, s, at the scene's current frame and sub-frame.
+
+    frame_current_final has the sub-frame and the scene's time remapping in it.
+    """
+    frames_per_second = scene.render.fps / scene.render.fps_base
+    return sea_time(properties.read_time(evaluated.ocean_lod), scene.frame_current_final, frames_per_second)
 
 
 def update(ob, scene, depsgraph) -> None:

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plane is one welded, watertight surface whose only boundary is the outer square."""
+
+import numpy as np
+import pytest
+
+from ocean_lod_addon.core.errors import OceanError
+from ocean_lod_addon.core.lod import Grid, tiles, topology
+
+SHAPES = [(8, 1), (8, 2), (8, 5), (64, 4), (256, 9), (512, 2)]
+
+
+def flat_positions(cells, levels, cell_size=1.0):
+    """Undisturbed vertex positions, (vertices, 2); NaN would show a vertex that no tile owns."""
+    grid = Grid(cell_size, cells, levels)
+    positions = np.full((grid.vertex_count, 2), np.nan)
+    for tile in tiles(cells, levels):
+        lines = grid.lines(tile.level)
+        x, y = np.meshgrid(
+            lines[tile.row_start : tile.row_stop], lines[tile.column_start : tile.column_stop], indexing="ij"
+        )
+        positions[tile.vertices] = np.stack([x.ravel(), y.ravel()], axis=-1)
+    return positions
+
+
+def directed_edges(faces):
+    """All edges of all faces in the face's order, (edges, 2) int64."""
+    return np.concatenate(
+        [np.stack([f, np.roll(f, -1, axis=1)], axis=-1).reshape(-1, 2) for f in (faces.triangles, faces.quads)]
+    ).astype(np.int64)
+
+
+def signed_areas(positions, polygons):
+    """Areas by the shoelace formula, positive for counter-clockwise."""
+    x, y = positions[polygons][..., 0], positions[polygons][..., 1]
+    return 0.5 * (x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1)).sum(axis=1)
+
+
+@pytest.mark.parametrize(("cells", "levels"), SHAPES)
+def test_every_edge_has_two_faces_except_on_the_outer_square(cells, levels):
+    faces = topology(cells, levels)
+    edges = directed_edges(faces)
+    forward = edges[:, 0] * faces.vertex_count + edges[:, 1]
+    backward = edges[:, 1] * faces.vertex_count + edges[:, 0]
+    assert len(np.unique(forward)) == len(forward), "two faces run along an edge in the same direction"
+    boundary = edges[~np.isin(forward, backward)]
+    assert len(boundary) == 4 * cells
+    outer = np.abs(flat_positions(cells, levels)[boundary]).max(axis=-1)
+    assert (outer == Grid(1.0, cells, levels).half_extent).all()
+
+
+@pytest.mark.parametrize(("cells", "levels"), SHAPES)
+def test_the_surface_is_one_disc(cells, levels):
+    """Euler: V - E + F = 1 for a connected disc, and every vertex is in a face."""
+    faces = topology(cells, levels)
+    edges = directed_edges(faces)
+    undirected = np.unique(np.sort(edges, axis=1), axis=0)
+    face_count = len(faces.triangles) + len(faces.quads)
+    assert faces.vertex_count - len(undirected) + face_count == 1
+    assert len(np.unique(edges)) == faces.vertex_count
+
+
+@pytest.mark.parametrize(("cells", "levels"), SHAPES)
+def test_faces_tile_the_square_once(cells, levels):
+    """All areas positive and their sum that of the square: nothing overlaps, nothing is missing or degenerate.
+
+    Lines are multiples of powers of two, so the areas are exact in float64.
+    """
+    faces = topology(cells, levels)
+    positions = flat_positions(cells, levels)
+    areas = np.concatenate([signed_areas(positions, faces.triangles), signed_areas(positions, faces.quads)])
+    assert areas.min() >= 0.5  # no face is smaller than half a cell of the innermost level
+    assert areas.sum() == (2 * Grid(1.0, cells, levels).half_extent) ** 2
+
+
+@pytest.mark.parametrize(("cells", "levels"), SHAPES)
+def test_no_two_vertices_coincide(cells, levels):
+    positions = flat_positions(cells, levels)
+    assert not np.isnan(positions).any()
+    assert len(np.unique(positions, axis=0)) == len(positions)
+
+
+def test_cells_must_allow_a_hole():
+    with pytest.raises(OceanError, match="cells is 100, allowed is a multiple of 8"):
+        Grid(cells=100)
