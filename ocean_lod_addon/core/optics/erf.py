@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The error function, which neither NumPy nor a shader's math nodes have.
 
-`erfc` and `erfcx` are exact to float64; `erfcx_abramowitz_stegun` and `erfc_eq19` are what a shader can afford.
+`erfc` and `erfcx` are exact to float64. What a shader can afford is `erfc_eq19` and, better and as cheap, the
+Abramowitz-Stegun polynomial inside `smith.masked_area`.
 """
 
 import math
@@ -36,20 +37,6 @@ def erfc(x) -> np.ndarray:
     size = np.minimum(np.abs(x), _LARGEST)
     tail = np.exp(-(size**2)) * erfcx(size)
     return np.where(x < 0.0, 2.0 - tail, tail)
-
-
-ABRAMOWITZ_STEGUN_P = 0.3275911
-ABRAMOWITZ_STEGUN_C = (0.254829592, -0.284496736, 1.421413741, -1.453152027, 1.061405429)
-
-
-def erfcx_abramowitz_stegun(ops, x):
-    """exp(x^2) erfc(x) for x >= 0, times exp(-x^2) within 1.5e-7 (Abramowitz and Stegun 7.1.26)."""
-    c1, c2, c3, c4, c5 = ABRAMOWITZ_STEGUN_C
-    t = 1.0 / ops.multiply_add(x, ABRAMOWITZ_STEGUN_P, 1.0)
-    polynomial = ops.multiply_add(t, c5, c4)
-    for coefficient in (c3, c2, c1):
-        polynomial = ops.multiply_add(t, polynomial, coefficient)
-    return t * polynomial
 
 
 def erfc_eq19(ops, x):

@@ -15,13 +15,17 @@ import math
 
 import numpy as np
 
-from .erf import ABRAMOWITZ_STEGUN_C, ABRAMOWITZ_STEGUN_P, erfc_eq19, erfcx
+from .erf import erfc_eq19, erfcx
 
-SPREAD_SQUARED_MIN = 1e-20
-"""Prevents w_z/0 at the zenith, where s_w = 0 and M is exactly 0; far below any sea's s_w^2 elsewhere."""
+SPREAD_SQUARED_MIN = 1e-30
+"""Prevents w_z/0 at the zenith, where s_w = 0 and M is exactly 0; (w_z/s_w)^2 = 1e30 still fits float32."""
 
 _A_MAX = 40.0
 """Beyond it exp(-a^2) is 0 in float64; keeps infinity times 0 out of Lambda."""
+
+_ABRAMOWITZ_STEGUN_P = 0.3275911
+_ABRAMOWITZ_STEGUN_C = (0.254829592, -0.284496736, 1.421413741, -1.453152027, 1.061405429)
+"""erfcx(a) = t (c1 + t (c2 + ...)), t = 1/(1 + p a), times exp(-a^2) within 1.5e-7 (7.1.26)."""
 
 _SQRT_2 = math.sqrt(2.0)
 _SQRT_PI = math.sqrt(math.pi)
@@ -40,8 +44,8 @@ def masked_area(ops, w_z, s_w):
     Written in c = w_z/s_w = sqrt(2) a with the constants multiplied out, which spares a shader nodes.
     """
     c = w_z / s_w
-    t = 1.0 / ops.multiply_add(c, ABRAMOWITZ_STEGUN_P / _SQRT_2, 1.0)
-    c1, c2, c3, c4, c5 = (-_SQRT_PI / _SQRT_2 * coefficient for coefficient in ABRAMOWITZ_STEGUN_C)
+    t = 1.0 / ops.multiply_add(c, _ABRAMOWITZ_STEGUN_P / _SQRT_2, 1.0)
+    c1, c2, c3, c4, c5 = (-_SQRT_PI / _SQRT_2 * coefficient for coefficient in _ABRAMOWITZ_STEGUN_C)
     polynomial = ops.multiply_add(t, c5, c4)
     for coefficient in (c3, c2, c1):
         polynomial = ops.multiply_add(t, polynomial, coefficient)
@@ -55,7 +59,7 @@ def facing_area(ops, c, s_w):
 
 
 def masked_area_eq19(ops, w_z, s_w):
-    """M with the paper's erfc (Eq. 19): 1 + Lambda within 0.058 %, in the fewest operations."""
+    """M with the paper's erfc (Eq. 19): 1 + Lambda within 0.0584 %, in the fewest operations."""
     a = w_z / (_SQRT_2 * s_w)
     a2 = a * a
     erfcx_19 = 2.0 / ops.multiply_add(a, 2.319, ops.sqrt(ops.multiply_add(a2, 1.52, 4.0)))
