@@ -71,7 +71,7 @@ def fresnel_of_cos(case):
 def mean_fresnel_visible(case):
     n, slopes = case["n"], exact_slopes(case["sigma2_x"], case["sigma2_y"])
     v = direction(case["theta_v"], case["phi_v"])
-    sigma_v = smith.slope_spread(OPS, v[0], v[1], slopes.sigma_x, slopes.sigma_y) / np.sin(case["theta_v"])
+    sigma_v = np.hypot(slopes.sigma_x * np.cos(case["phi_v"]), slopes.sigma_y * np.sin(case["phi_v"]))
     return {
         "exact_F": mean_fresnel.mean_over_visible_slopes(OPS, lambda c: fresnel.exact(OPS, c, n), v, slopes),
         "schlick_F": mean_fresnel.mean_over_visible_slopes(OPS, lambda c: fresnel.schlick(OPS, c, n), v, slopes),

@@ -34,10 +34,3 @@ def test_a_calm_is_a_mirror_under_a_sun_of_finite_size_and_not_a_division_by_zer
     half_angle = 4.65e-3
     assert sigma[0] == sigma[1] == pytest.approx(half_angle / 4.0, rel=0.02)
     assert sigma[2] == pytest.approx(0.2, rel=1e-15)
-
-
-def test_what_geometry_shows_the_brdf_does_not_show_again():
-    total = np.array([0.0316, 0.0316, 0.0063])
-    resolved = np.array([0.0, 0.01, 0.0090])  # the last: a steep swell under a light wind
-    left = cox_munk.unresolved_variance(OPS, total, resolved)
-    np.testing.assert_allclose(left, [0.0316, 0.0216, cox_munk.SLOPE_VARIANCE_FLOOR], rtol=1e-14)

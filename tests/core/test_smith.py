@@ -66,30 +66,34 @@ def test_lambda_and_masked_area_are_the_same_thing():
     np.testing.assert_allclose(smith.masked_area_exact(OPS, w[2], s) / w[2], Lambda, rtol=1e-12, atol=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("masked_area", "bound"),
-    [(smith.masked_area, 1e-7), (smith.masked_area_eq19, 5.84e-4)],
-    ids=["Abramowitz-Stegun", "Eq. 19"],
-)
-def test_affordable_forms_keep_1_plus_lambda(masked_area, bound):
+def test_the_affordable_form_keeps_1_plus_lambda_and_the_papers_would_not():
     s = 0.2
     w_z = GRAZING_TO_ZENITH * s
     shown = w_z + smith.masked_area_exact(OPS, w_z, s)
-    error = (masked_area(OPS, w_z, np.float64(s)) - smith.masked_area_exact(OPS, w_z, s)) / shown
-    assert np.abs(error).max() < bound
+    error = (smith.masked_area(OPS, w_z, s) - smith.masked_area_exact(OPS, w_z, s)) / shown
+    assert np.abs(error).max() < 1e-7
+    a = GRAZING_TO_ZENITH[1:] / math.sqrt(2.0)
+    a = a[a < 8.0]
+    error = (smith.smith_lambda_eq19(OPS, a) - smith.smith_lambda(a)) / (1.0 + smith.smith_lambda(a))
+    assert np.abs(error).max() == pytest.approx(5.84e-4, abs=1e-5)
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("masked_area", [smith.masked_area, smith.masked_area_eq19])
-def test_nothing_is_masked_at_the_zenith_and_a_finite_area_at_grazing(masked_area, dtype):
+def test_nothing_is_masked_at_the_zenith_and_a_finite_area_at_grazing(dtype):
     ops, sigma = NumpyOps(dtype), np.full(1, 0.2, dtype)
     one, zero = np.ones(1, dtype), np.zeros(1, dtype)
     with np.errstate(over="raise", invalid="raise", divide="raise"):
-        zenith = masked_area(ops, one, smith.slope_spread(ops, zero, zero, sigma, sigma))
-        grazing = masked_area(ops, zero, smith.slope_spread(ops, one, zero, sigma, sigma))
+        zenith = smith.masked_area(ops, one, smith.slope_spread(ops, zero, zero, sigma, sigma))
+        grazing = smith.masked_area(ops, zero, smith.slope_spread(ops, one, zero, sigma, sigma))
     assert zenith.item() == 0.0
     assert zenith.dtype == grazing.dtype == dtype
     assert grazing.item() == pytest.approx(0.2 / math.sqrt(2.0 * math.pi), rel=1e-6)
+
+
+def test_a_is_infinite_and_lambda_0_at_the_zenith():
+    a = smith.a_of_direction(0.0, 0.0, 0.03, 0.02)
+    assert a == np.inf
+    assert smith.smith_lambda(a) == 0.0
 
 
 def test_lambda_tends_to_its_grazing_series():

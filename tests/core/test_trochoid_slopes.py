@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.optics.trochoid_slopes import (
-    in_wind_axes,
     mean_square_slope,
     mean_square_slope_by_undisturbed_position,
     mean_square_slope_linear,
@@ -71,21 +70,12 @@ def test_one_wave_puts_its_variance_along_its_direction():
     f = mean_square_slope(0.2)
     covariance = slope_covariance(waves)
     assert covariance == pytest.approx((f / 4, 3 * f / 4, np.sqrt(3) * f / 4), rel=1e-14)
-    assert in_wind_axes(covariance, np.pi / 3) == pytest.approx((f, 0.0, 0.0), rel=1e-14, abs=1e-17)
 
 
 def test_an_even_fan_of_waves_is_isotropic():
     waves = wave_set(np.full(8, 0.2), 0.5, np.arange(8) * np.pi / 4)
     total = 8 * mean_square_slope(0.1)
     assert slope_covariance(waves) == pytest.approx((total / 2, total / 2, 0.0), rel=1e-14, abs=1e-17)
-
-
-def test_axes_are_turned_like_a_tensor():
-    rng = np.random.default_rng(5)
-    waves = wave_set(rng.uniform(0.0, 0.3, 30), 0.6, rng.uniform(-np.pi, np.pi, 30))
-    angle = 0.8
-    turned = wave_set(waves.amplitude, 0.6, waves.direction - angle)
-    assert in_wind_axes(slope_covariance(waves), angle) == pytest.approx(slope_covariance(turned), rel=1e-12)
 
 
 def test_weights_per_point_give_a_covariance_per_point():

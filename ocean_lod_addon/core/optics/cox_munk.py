@@ -29,8 +29,3 @@ def skewness_c21(U):
 def skewness_c03(U):
     """c03 = 0.04 - 0.033 U (Eq. 11), +- 0.12; negative: steep slopes rise towards the wind."""
     return 0.04 - 0.033 * U
-
-
-def unresolved_variance(ops, total, resolved):
-    """The slope variance that geometry and bump leave to the BRDF: max(total - resolved, floor), per axis."""
-    return ops.label(ops.maximum(total - resolved, SLOPE_VARIANCE_FLOOR), "Unresolved slope variance")

@@ -41,7 +41,8 @@ def slope_spread(ops, w_x, w_y, sigma_x, sigma_y):
 def masked_area(ops, w_z, s_w):
     """M = w_z Lambda for w_z >= 0, with erfcx after Abramowitz and Stegun 7.1.26: 1 + Lambda within 1e-7.
 
-    Written in c = w_z/s_w = sqrt(2) a with the constants multiplied out, which spares a shader nodes.
+    Written in c = w_z/s_w = sqrt(2) a with the constants multiplied out. With the paper's erfc (Eq. 19) it would
+    take as many operations and be off by up to 5.9e-4.
     """
     c = w_z / s_w
     t = 1.0 / ops.multiply_add(c, _ABRAMOWITZ_STEGUN_P / _SQRT_2, 1.0)
@@ -58,16 +59,8 @@ def facing_area(ops, c, s_w):
     return s_w * (1.0 / _SQRT_2_PI) * ops.exp(c * c * -0.5)
 
 
-def masked_area_eq19(ops, w_z, s_w):
-    """M with the paper's erfc (Eq. 19): 1 + Lambda within 0.0584 %, in the fewest operations."""
-    a = w_z / (_SQRT_2 * s_w)
-    a2 = a * a
-    erfcx_19 = 2.0 / ops.multiply_add(a, 2.319, ops.sqrt(ops.multiply_add(a2, 1.52, 4.0)))
-    return s_w * (1.0 / _SQRT_2_PI) * ops.exp(-a2) * (1.0 - _SQRT_PI * a * erfcx_19)
-
-
 def masked_area_exact(ops, w_z, s_w):
-    """M to float64: the reference for the other two. NumPy only; `ops` is there to share their signature."""
+    """M to float64: the reference for `masked_area`. NumPy only; `ops` is there to share its signature."""
     a = np.minimum(np.divide(w_z, _SQRT_2 * np.asarray(s_w)), _A_MAX)
     return s_w / _SQRT_2_PI * np.exp(-(a**2)) * (1.0 - _SQRT_PI * a * erfcx(a))
 
@@ -75,7 +68,8 @@ def masked_area_exact(ops, w_z, s_w):
 def a_of_direction(theta, phi, variance_x, variance_y):
     """a = [2 (sigma_x^2 cos^2 phi + sigma_y^2 sin^2 phi) tan^2 theta]^(-1/2) (Eq. 17, its tangent squared)."""
     along_phi = variance_x * np.cos(phi) ** 2 + variance_y * np.sin(phi) ** 2
-    return 1.0 / np.sqrt(2.0 * along_phi * np.tan(theta) ** 2)
+    with np.errstate(divide="ignore"):  # a is infinite at the zenith
+        return 1.0 / np.sqrt(2.0 * along_phi * np.tan(theta) ** 2)
 
 
 def smith_lambda(a):

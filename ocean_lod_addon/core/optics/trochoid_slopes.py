@@ -56,14 +56,3 @@ def slope_covariance(waves: WaveSet, weight=0.0) -> SlopeCovariance:
     f = residual_mean_square_slope(waves.wavenumber * waves.amplitude, weight, waves.orbit_ratio)
     x, y = np.cos(waves.direction), np.sin(waves.direction)
     return SlopeCovariance((f * x * x).sum(-1), (f * y * y).sum(-1), (f * x * y).sum(-1))
-
-
-def in_wind_axes(covariance: SlopeCovariance, wind_direction: float) -> SlopeCovariance:
-    """The same covariance in axes with x along `wind_direction` (rad, counter-clockwise from world +x)."""
-    c, s = np.cos(wind_direction), np.sin(wind_direction)
-    xx, yy, xy = covariance
-    return SlopeCovariance(
-        c * c * xx + 2.0 * c * s * xy + s * s * yy,
-        s * s * xx - 2.0 * c * s * xy + c * c * yy,
-        c * s * (yy - xx) + (c * c - s * s) * xy,
-    )
