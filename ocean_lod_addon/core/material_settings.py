@@ -33,6 +33,18 @@ class MaterialSettings:
         0.0,
         4.0,
     )
+    glitter_strength: float = number(
+        "Glitter Strength", f"Factor on the brightness of the sun's reflection. {PHYSICAL}", 1.0, 0.0, 4.0
+    )
+    sun_model: str = choice(
+        "Sun in Cycles",
+        "How Cycles reflects the sun. EEVEE always evaluates the formula",
+        "closure",
+        (
+            Option("closure", "Closure", "Cycles samples the sun's disc itself, with shadows"),
+            Option("formula", "Formula", "The Ross BRDF of the sun in math nodes, for comparison"),
+        ),
+    )
 
     def __post_init__(self):
         validate(self)

@@ -4,14 +4,24 @@
 import json
 
 import bpy
+import numpy as np
 
 from ..core.material_settings import MaterialSettings
 from ..core.optics.color import reflectance_to_rec709
 from ..core.optics.water_types import WATER_TYPES, WAVELENGTHS, water_leaving_reflectance
+from ..core.sun import Sun
 from .groups import ensure_group
 from .layout import arrange
-from .sockets import ROUGHNESS, SLOPE_VARIANCE, WATER_COLOR
-from .water_group import CYCLES, EEVEE, TINT, WATER
+from .sockets import (
+    GLITTER_STRENGTH,
+    ROUGHNESS,
+    SLOPE_VARIANCE,
+    SUN_ANGLE,
+    SUN_DIRECTION,
+    SUN_IRRADIANCE,
+    WATER_COLOR,
+)
+from .water_group import CYCLES, EEVEE, FORMULA_SUN, TINT, WATER
 
 SLOPE_VARIANCE_ATTRIBUTE = "ocean_slope_variance"
 """Point attribute (FLOAT_VECTOR) of the mesh: unresolved slope variance (xx, yy, xy) in the object's axes."""
@@ -48,6 +58,24 @@ def ensure_material(name: str, settings: MaterialSettings) -> bpy.types.Material
     return material
 
 
+def set_sun(material: bpy.types.Material, sun: Sun | None) -> None:
+    """Tell the material which sun to reflect; None for no sun. Sockets that hold it already are not touched."""
+    inputs = material.node_tree.nodes[WATER.name].inputs
+    if sun is None:
+        _write(inputs[SUN_IRRADIANCE.name], (0.0, 0.0, 0.0, 1.0))
+        return
+    _write(inputs[SUN_DIRECTION.name], sun.direction)
+    _write(inputs[SUN_IRRADIANCE.name], (*sun.irradiance, 1.0))
+    _write(inputs[SUN_ANGLE.name], sun.angular_diameter)
+
+
+def _write(socket, value):
+    """Set a socket unless it has the value, since every write makes the renderers update the material."""
+    old = socket.default_value
+    if not np.array_equal(np.float32(old if np.isscalar(value) else tuple(old)), np.float32(value)):
+        socket.default_value = value
+
+
 def water_color(settings: MaterialSettings) -> tuple[float, float, float, float]:
     """Linear RGB reflectance (and alpha 1) of the water body that the settings choose."""
     reflectance = water_leaving_reflectance(WATER_TYPES[settings.water_type])
@@ -60,6 +88,8 @@ def socket_values(settings: MaterialSettings) -> dict:
         WATER_COLOR.name: water_color(settings),
         TINT.name: (settings.tint_red, settings.tint_green, settings.tint_blue, 1.0),
         ROUGHNESS.name: settings.roughness,
+        GLITTER_STRENGTH.name: settings.glitter_strength,
+        FORMULA_SUN.name: float(settings.sun_model == "formula"),
     }
 
 

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sockets that several node groups share, described once."""
 
+import math
+
+from ..core.sun import DISC_ANGLE
 from .groups import Socket
 
 SLOPE_VARIANCE = Socket(
@@ -54,3 +57,19 @@ WATER_COLOR = Socket(
     (0.002, 0.012, 0.03, 1.0),
 )
 BSDF = Socket("BSDF", "SHADER")
+SUN_DIRECTION = Socket(
+    "Sun Direction", "VECTOR", "Unit vector from the ground to the sun, in world space", (0.0, 0.0, 1.0)
+)
+SUN_IRRADIANCE = Socket(
+    "Sun Irradiance",
+    "COLOR",
+    "Light of the sun on a plane that faces it, linear RGB in the units of a Sun light's strength (W/m²). Black "
+    "for no sun",
+    (0.0, 0.0, 0.0, 1.0),
+)
+SUN_ANGLE = Socket(
+    "Sun Angle", "FLOAT", "Angular diameter of the sun", DISC_ANGLE, 0.0, math.pi / 2, "ANGLE"
+)
+GLITTER_STRENGTH = Socket(
+    "Glitter Strength", "FLOAT", "Factor on the brightness of the sun's reflection. 1 is physical", 1.0, 0.0, 4.0
+)

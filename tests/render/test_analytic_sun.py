@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The analytic sun group is the Ross BRDF: to float32 in Cycles, to EEVEE's half floats there."""
+
+import itertools
+
+import bpy
+import numpy as np
+import pytest
+
+from ocean_lod_addon.core.sun import Sun
+from ocean_lod_addon.nodes.material import set_sun
+from tests.render.flat_sea import FlatSea, direction
+from tests.render.ross_reference import lobe_peak, sun_radiance
+from tests.render.test_closure_reflection import IN_LOBE, SUN_OFFSETS, TENSORS, black_water
+
+pytestmark = pytest.mark.render
+
+CYCLES_TOLERANCE = 1e-3
+"""float32 through 120 nodes, the exponent of the slope density magnifying what is left of 1e-7."""
+
+EEVEE_TOLERANCE = 5e-3
+"""EEVEE keeps colours in half floats, 2^-11 = 0.0005 each, and a few of them."""
+
+IRRADIANCE = 0.5
+"""Keeps the brightest pixel (sigma 0.02: 1/(8 pi 0.02^2) = 100 times F) far below the largest half float."""
+
+
+def check(sea, render, elevation, offset, tolerance):
+    """Compare every strip in the lobe with the reference for one place of viewer and sun; how many they were."""
+    (material,) = sea.sea.data.materials
+    higher, aside = offset
+    to_viewer = sea.look_along_x(elevation)
+    to_sun = direction(min(max(elevation + higher, 0.5), 90.0), aside)
+    set_sun(material, Sun(tuple(to_sun), (IRRADIANCE, 0.5 * IRRADIANCE, 0.0), 0.0))
+    picture = render() / IRRADIANCE
+    truth = np.array([sun_radiance(to_viewer, to_sun, tensor) for tensor in TENSORS])
+    inside = truth > IN_LOBE * np.array([lobe_peak(to_viewer, tensor) for tensor in TENSORS])
+    ratio = picture[inside, 0] / truth[inside]
+    assert np.all(np.abs(ratio - 1.0) < tolerance), f"elevation {elevation}, sun {higher:+} {aside:+}: {ratio}"
+    assert picture[inside, 1] == pytest.approx(0.5 * picture[inside, 0], rel=tolerance)
+    assert np.all(picture[:, 2] == 0.0)
+    return int(inside.sum())
+
+
+def test_cycles_shows_the_formula(tmp_path):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    sea = FlatSea(black_water(sun_model="formula"), TENSORS)
+    places = itertools.product((90.0, 75.0, 60.0, 45.0, 30.0, 20.0, 12.0, 7.0, 4.0, 2.0, 1.0), SUN_OFFSETS)
+    compared = [
+        check(sea, lambda: sea.render_cycles(tmp_path / "sea.exr"), *place, CYCLES_TOLERANCE) for place in places
+    ]
+    assert sum(compared) > 500  # of 44 places times 18 strips; the others lie outside their lobe
+
+
+def test_eevee_shows_the_formula(tmp_path):
+    """Fewer places than in Cycles, since every EEVEE render compiles its shaders anew."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    sea = FlatSea(black_water(), TENSORS)
+    places = zip((75.0, 20.0, 45.0, 7.0, 1.0), (*SUN_OFFSETS, SUN_OFFSETS[0]), strict=True)
+    compared = [
+        check(sea, lambda: sea.render_eevee(tmp_path / "sea.exr"), *place, EEVEE_TOLERANCE) for place in places
+    ]
+    assert sum(compared) > 50
