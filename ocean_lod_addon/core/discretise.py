@@ -33,8 +33,11 @@ from .spreading.sampling import direction_at_share, mean_cos2
 from .spreading.table import Spreading, spreading_of
 from .waves import TWO_PI, WaveSet
 
-LOWEST_EDGE = 0.7
-"""Where the geometric bins start, over the peak frequency: 0.55 % of a Pierson-Moskowitz sea's energy is below."""
+LOWEST_EDGE = 0.6
+"""Where the geometric bins start, over the peak frequency: 6e-5 of a Pierson-Moskowitz sea's energy is below.
+
+The first bin takes what is below: with 0.7 (0.55 %) its wave would stand out among many.
+"""
 
 SMALLEST_BIN_ENERGY = 1e-30
 """m^2; a bin with less is empty: its wave has no height, and dividing by its energy would make it nonsense."""

@@ -199,15 +199,16 @@ def sampled_statistics(sea: Sea, waves: WaveSet, axis: float) -> SeaStatistics:
 def _sampled_peak(sea, waves, energy):
     """Frequency of the wave with the largest energy per width of its bin, in the system the sea's peak belongs to.
 
-    Widths of a system's bins are in proportion to their frequencies.
+    Widths of a system's bins are in proportion to their frequencies, but the first reaches further down.
     """
     peaks = {}
     for index in np.unique(waves.system):
         spectrum = spectrum_of(sea.systems[index], sea.water)
         peaks[index] = float(spectrum.density(np.float64(spectrum.peak_frequency)))
     own = waves.system == max(peaks, key=peaks.get)
-    omega = waves.angular_frequency[own]
-    return float(omega[np.argmax(energy[own] / omega)])
+    first = min(1, np.count_nonzero(own) - 1)
+    omega = waves.angular_frequency[own][first:]
+    return float(omega[np.argmax(energy[own][first:] / omega)])
 
 
 def loop_distortion(sea: Sea, shortest_wavelength: float) -> LoopDistortion:

@@ -4,7 +4,7 @@
 import numpy as np
 
 from ocean_lod_addon.core import dispersion, gerstner, rng
-from ocean_lod_addon.core.discretise import integrate_bins, looping_frequency, representative_waves
+from ocean_lod_addon.core.discretise import looping_frequency
 from ocean_lod_addon.core.spectra import pierson_moskowitz, two_parameter
 from ocean_lod_addon.core.spectra.jonswap import jonswap_from_height, jonswap_from_wind
 from ocean_lod_addon.core.spectra.moments import significant_wave_height, spectrum_moments
@@ -55,16 +55,14 @@ def _pm_hs(given):
 
 def _pm_geometric_bins(given):
     edges = np.geomspace(given["omega_lo"], given["omega_hi"], given["N"] + 1)
-    law = swop.swop(1.0)
-    bins = integrate_bins(_pm(given), law, np.pi, dispersion.DEEP_WATER, edges)
-    k, omega = representative_waves(bins, dispersion.DEEP_WATER, 0.0)
-    amplitude = np.sqrt(2.0 * bins.energy)
+    energy = _pm(given).energy_between(edges[:-1], edges[1:])
+    slope_variance = _pm(given).deep_slope_variance_between(edges[:-1], edges[1:])
     return {
         "edges": edges,
-        "amplitude": amplitude,
-        "omega_slope_preserving": omega,
-        "sum_half_A2": 0.5 * np.sum(amplitude**2),
-        "sum_half_k2A2": 0.5 * np.sum(k**2 * amplitude**2),
+        "amplitude": np.sqrt(2.0 * energy),
+        "omega_slope_preserving": dispersion.angular_frequency(np.sqrt(slope_variance / energy)),
+        "sum_half_A2": np.sum(energy),
+        "sum_half_k2A2": np.sum(slope_variance),
     }
 
 
