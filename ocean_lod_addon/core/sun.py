@@ -17,11 +17,13 @@ class Sun:
     direction          unit vector from the ground to the sun, world axes
     irradiance         linear RGB on a plane that faces the sun, in the units of Blender's Sun light (W/m^2)
     angular_diameter   rad
+    shines_in_eevee    whether EEVEE lights objects with it: with a Sun light, not with a Sky Texture's disc
     """
 
     direction: tuple[float, float, float]
     irradiance: tuple[float, float, float]
     angular_diameter: float = DISC_ANGLE
+    shines_in_eevee: bool = True
 
     @property
     def strength(self) -> float:

@@ -21,7 +21,7 @@ from .sockets import (
     SUN_IRRADIANCE,
     WATER_COLOR,
 )
-from .water_group import CYCLES, EEVEE, FORMULA_SUN, TINT, WATER
+from .water_group import CYCLES, EEVEE, FORMULA_SUN, MISSING_SUN, TINT, WATER
 
 SLOPE_VARIANCE_ATTRIBUTE = "ocean_slope_variance"
 """Point attribute (FLOAT_VECTOR) of the mesh: unresolved slope variance (xx, yy, xy) in the object's axes."""
@@ -67,6 +67,7 @@ def set_sun(material: bpy.types.Material, sun: Sun | None) -> None:
     _write(inputs[SUN_DIRECTION.name], sun.direction)
     _write(inputs[SUN_IRRADIANCE.name], (*sun.irradiance, 1.0))
     _write(inputs[SUN_ANGLE.name], sun.angular_diameter)
+    _write(inputs[MISSING_SUN.name], 0.0 if sun.shines_in_eevee else 1.0)
 
 
 def _write(socket, value):

@@ -19,6 +19,7 @@ from .sockets import (
     WATER_COLOR,
 )
 from .sun_group import SUN
+from .sunlit_body_group import SUNLIT_BODY
 
 TINT = Socket(
     "Tint",
@@ -31,6 +32,15 @@ FORMULA_SUN = Socket(
     "FLOAT",
     "1 to reflect the sun in Cycles by the formula that EEVEE uses instead of by the closure. The Sun light must "
     "then be invisible to glossy rays",
+    0.0,
+    0.0,
+    1.0,
+    "FACTOR",
+)
+MISSING_SUN = Socket(
+    "Missing Sun in EEVEE",
+    "FLOAT",
+    "1 where EEVEE does not light the sea with this sun, as with the disc of a Sky Texture; 0 for a Sun light",
     0.0,
     0.0,
     1.0,
@@ -67,16 +77,32 @@ def _build(graph: Graph):
         sky = use_group(graph, SKY_REFLECTION, variances | mean_fresnel)[BSDF.name]
         strength = {GLITTER_STRENGTH.name: graph.input(GLITTER_STRENGTH.name)}
         sun = use_group(graph, SUN, sun_inputs | strength)[BSDF.name]
-        eevee = graph.add_shaders(sky, body, sun)
+        missing = graph.input(SUN_IRRADIANCE.name) * graph.input(MISSING_SUN.name)
+        sunlit_inputs = mean_fresnel | {
+            WATER_COLOR.name: color,
+            SUN_DIRECTION.name: graph.input(SUN_DIRECTION.name),
+            SUN_IRRADIANCE.name: graph.label(missing, "sun that EEVEE leaves out"),
+        }
+        sunlit = use_group(graph, SUNLIT_BODY, sunlit_inputs)[BSDF.name]
+        eevee = graph.add_shaders(sky, body, sun, sunlit)
     graph.output(CYCLES.name, cycles)
     graph.output(EEVEE.name, eevee)
 
 
 WATER = GroupRecipe(
     "Ocean LOD Water",
-    "2",
-    inputs=(SLOPE_VARIANCE, WATER_COLOR, TINT, ROUGHNESS, GLITTER_STRENGTH, FORMULA_SUN, *SUN_SOCKETS),
+    "3",
+    inputs=(
+        SLOPE_VARIANCE,
+        WATER_COLOR,
+        TINT,
+        ROUGHNESS,
+        GLITTER_STRENGTH,
+        FORMULA_SUN,
+        *SUN_SOCKETS,
+        MISSING_SUN,
+    ),
     outputs=(CYCLES, EEVEE),
     build=_build,
-    needs=(SLOPES, MEAN_FRESNEL_OF_SLOPES, REFLECTION, WATER_BODY, SKY_REFLECTION, SUN),
+    needs=(SLOPES, MEAN_FRESNEL_OF_SLOPES, REFLECTION, WATER_BODY, SKY_REFLECTION, SUN, SUNLIT_BODY),
 )
