@@ -16,9 +16,10 @@ MATH = {
     "MINIMUM": np.minimum,
     "MAXIMUM": np.maximum,
     "LESS_THAN": lambda a, b: (a < b).astype(a.dtype),
-    "SQRT": lambda a, b: np.sqrt(a),
-    "EXPONENT": lambda a, b: np.exp(a),
-    "ABSOLUTE": lambda a, b: np.abs(a),
+    "MULTIPLY_ADD": lambda a, b, c: a * b + c,
+    "SQRT": np.sqrt,
+    "EXPONENT": np.exp,
+    "ABSOLUTE": np.abs,
 }
 
 VECTOR_MATH = {
@@ -27,8 +28,8 @@ VECTOR_MATH = {
     "MULTIPLY": lambda a, b: a * b,
     "CROSS_PRODUCT": np.cross,
     "DOT_PRODUCT": lambda a, b: np.sum(a * b, axis=-1),
-    "LENGTH": lambda a, b: np.sqrt(np.sum(a * a, axis=-1)),
-    "NORMALIZE": lambda a, b: a / np.sqrt(np.sum(a * a, axis=-1, keepdims=True)),
+    "LENGTH": lambda a: np.sqrt(np.sum(a * a, axis=-1)),
+    "NORMALIZE": lambda a: a / np.sqrt(np.sum(a * a, axis=-1, keepdims=True)),
 }
 
 
@@ -61,15 +62,16 @@ class TreeInterpreter:
             case "NodeGroupInput":
                 return self.inputs[socket.name]
             case "ShaderNodeMath":
-                return MATH[node.operation](self.input_value(node.inputs[0]), self.input_value(node.inputs[1]))
+                operands = [self.input_value(operand) for operand in node.inputs if operand.enabled]
+                return MATH[node.operation](*operands)
             case "ShaderNodeMix":
                 factor, a, b = (self.input_value(node.inputs[index]) for index in (0, 2, 3))
                 return a * (1 - factor) + b * factor
             case "ShaderNodeVectorMath":
-                a = self.input_value(node.inputs[0])
+                operands = [self.input_value(operand) for operand in node.inputs if operand.enabled]
                 if node.operation == "SCALE":
-                    return a * self.input_value(node.inputs["Scale"])[..., None]
-                return VECTOR_MATH[node.operation](a, self.input_value(node.inputs[1]))
+                    return operands[0] * operands[1][..., None]
+                return VECTOR_MATH[node.operation](*operands)
             case "ShaderNodeSeparateXYZ":
                 index = [output.name for output in node.outputs].index(socket.name)
                 return self.input_value(node.inputs[0])[..., index]
