@@ -2,7 +2,7 @@
 """Ocean LOD: a physically calibrated sea for Blender.
 
 Importing this package loads neither bpy nor NumPy; `register()` loads what Blender needs. Imports point
-downward only: ui and cli -> scene, nodes -> core (tests/test_architecture.py holds them to it).
+downward only: ui and cli -> scene -> nodes -> core (tests/test_architecture.py holds them to it).
 """
 
 

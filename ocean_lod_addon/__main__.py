@@ -3,11 +3,16 @@
 
 import os
 import sys
+import traceback
 
-from .cli import main
+from .cli import EXIT_FAILED, main
 
 if __name__ == "__main__":
-    code = main(sys.argv[1:])
+    try:
+        code = main(sys.argv[1:])
+    except BaseException:  # noqa: BLE001 - the process ends here, and says why
+        traceback.print_exc()
+        code = EXIT_FAILED
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(code)  # the bpy module of Blender 4.5 can hang while the interpreter ends

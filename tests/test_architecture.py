@@ -17,7 +17,7 @@ PACKAGE = ROOT / "ocean_lod_addon"
 MAY_IMPORT = {
     "core": {"core"},
     "nodes": {"core", "nodes"},
-    "scene": {"core", "scene"},
+    "scene": {"core", "nodes", "scene"},
     "ui": {"core", "nodes", "scene", "ui"},
     "cli": {"core", "nodes", "scene", "ui", "cli", "__init__"},
     "__init__": {"scene", "ui"},

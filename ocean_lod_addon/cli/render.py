@@ -82,7 +82,7 @@ def _check_writable(output):
     while not folder.exists():
         folder = folder.parent
     if not folder.is_dir() or not os.access(folder, os.W_OK):
-        raise OceanError(f"--output {output}: {folder} can not be written to")
+        raise OceanError(f"--output {output}: its folder can not be written to")
     if output.is_dir():
         raise OceanError(f"--output {output} is a folder, give a file name")
 
@@ -106,6 +106,7 @@ def _open(path):
         bpy.ops.wm.open_mainfile(filepath=str(path.absolute()), load_ui=False)
     except RuntimeError as error:
         raise OceanError(f"--blend {path}: {str(error).strip().splitlines()[-1]}") from None
+    _ensure_registered()
     scene = bpy.context.scene
     if not any(ocean_object.is_ocean(ob) for ob in scene.objects):
         raise OceanError(f"--blend {path}: its scene {scene.name!r} has no ocean")
@@ -225,7 +226,10 @@ class _Progress:
 def _render(scene, output, output_format, frames):
     import bpy
 
-    output.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OceanError(f"--output {output}: its folder can not be written to: {error.strerror}") from None
     progress = _Progress(scene, frames)
     handlers = bpy.app.handlers
     handlers.render_pre.append(progress.frame_begins)
