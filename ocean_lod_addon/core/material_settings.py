@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 
-from .parameters import Option, choice, number, validate
+from .parameters import Option, choice, number, switch, validate
 
 PHYSICAL = "1 is physical"
 
@@ -44,6 +44,20 @@ class MaterialSettings:
             Option("closure", "Closure", "Cycles samples the sun's disc itself, with shadows"),
             Option("formula", "Formula", "The Ross BRDF of the sun in math nodes, for comparison"),
         ),
+    )
+    see_through: bool = switch(
+        "See Through",
+        "Refract and absorb light, for shots that look into the water. Slower, and the sea needs a bottom",
+        False,
+    )
+    eevee_depth: float = number(
+        "Depth in EEVEE",
+        "With See Through: depth of the bottom that EEVEE reckons with. Cycles finds the bottom itself",
+        10.0,
+        0.0,
+        1000.0,
+        "m",
+        soft_maximum=50.0,
     )
 
     def __post_init__(self):

@@ -335,6 +335,11 @@ class Graph:
             total = self.output_of(self.node("ShaderNodeAddShader", inputs={0: total, 1: other}))
         return total
 
+    def mix_shaders(self, factor: Scalar, if_zero: Shader, if_one: Shader) -> Shader:
+        """if_zero (1 - factor) + if_one factor."""
+        inputs = {0: factor, 1: if_zero, 2: if_one}
+        return self.output_of(self.node("ShaderNodeMixShader", inputs=inputs))
+
     # Reading
 
     def label(self, value, name: str):

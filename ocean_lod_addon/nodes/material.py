@@ -8,20 +8,39 @@ import numpy as np
 
 from ..core.material_settings import MaterialSettings
 from ..core.optics.color import reflectance_to_rec709
-from ..core.optics.water_types import WATER_TYPES, WAVELENGTHS, water_leaving_reflectance
+from ..core.optics.water_types import (
+    WATER_TYPES,
+    WAVELENGTHS,
+    rgb_absorption,
+    rgb_backscattering,
+    water_leaving_reflectance,
+)
 from ..core.sun import Sun
+from .clear_water_group import CLEAR_WATER
 from .groups import ensure_group
 from .layout import arrange
 from .sockets import (
+    ABSORPTION,
+    BACKSCATTERING,
+    CYCLES,
+    EEVEE,
+    EEVEE_DEPTH,
+    FORMULA_SUN,
     GLITTER_STRENGTH,
+    MISSING_SUN,
     ROUGHNESS,
     SLOPE_VARIANCE,
     SUN_ANGLE,
     SUN_DIRECTION,
     SUN_IRRADIANCE,
+    TINT,
+    VOLUME,
     WATER_COLOR,
 )
-from .water_group import CYCLES, EEVEE, FORMULA_SUN, MISSING_SUN, TINT, WATER
+from .water_group import WATER
+
+NODE_NAME = "Ocean LOD Water"
+"""Name of the group node in a material."""
 
 SLOPE_VARIANCE_ATTRIBUTE = "ocean_slope_variance"
 """Point attribute (FLOAT_VECTOR) of the mesh: unresolved slope variance (xx, yy, xy) in the object's axes."""
@@ -49,18 +68,20 @@ def ensure_material(name: str, settings: MaterialSettings) -> bpy.types.Material
     Only sockets whose setting changed since the last call are written, so that what an artist typed or linked
     elsewhere in the tree stays.
     """
-    group = ensure_group(WATER)
+    group = ensure_group(CLEAR_WATER if settings.see_through else WATER)
     material = find_material(name) or _new_material(name)
-    if WATER.name not in material.node_tree.nodes:
-        _build_tree(material.node_tree, group)
-    material.node_tree.nodes[WATER.name].node_tree = group
+    tree = material.node_tree
+    if NODE_NAME not in tree.nodes:
+        _build_tree(tree)
+    if tree.nodes[NODE_NAME].node_tree != group:
+        _use_group(material, group)
     _apply(material, socket_values(settings))
     return material
 
 
 def set_sun(material: bpy.types.Material, sun: Sun | None) -> None:
     """Tell the material which sun to reflect; None for no sun. Sockets that hold it already are not touched."""
-    inputs = material.node_tree.nodes[WATER.name].inputs
+    inputs = material.node_tree.nodes[NODE_NAME].inputs
     if sun is None:
         _write(inputs[SUN_IRRADIANCE.name], (0.0, 0.0, 0.0, 1.0))
         return
@@ -72,8 +93,7 @@ def set_sun(material: bpy.types.Material, sun: Sun | None) -> None:
 
 def _write(socket, value):
     """Set a socket unless it has the value, since every write makes the renderers update the material."""
-    old = socket.default_value
-    if not np.array_equal(np.float32(old if np.isscalar(value) else tuple(old)), np.float32(value)):
+    if not np.array_equal(np.float32(_plain(socket)), np.float32(value)):
         socket.default_value = value
 
 
@@ -85,13 +105,19 @@ def water_color(settings: MaterialSettings) -> tuple[float, float, float, float]
 
 def socket_values(settings: MaterialSettings) -> dict:
     """What each setting means as the value of a socket of the group node."""
-    return {
+    values = {
         WATER_COLOR.name: water_color(settings),
         TINT.name: (settings.tint_red, settings.tint_green, settings.tint_blue, 1.0),
         ROUGHNESS.name: settings.roughness,
         GLITTER_STRENGTH.name: settings.glitter_strength,
         FORMULA_SUN.name: float(settings.sun_model == "formula"),
     }
+    if settings.see_through:
+        contents = WATER_TYPES[settings.water_type]
+        values[ABSORPTION.name] = tuple(map(float, rgb_absorption(contents)))
+        values[BACKSCATTERING.name] = tuple(map(float, rgb_backscattering(contents)))
+        values[EEVEE_DEPTH.name] = settings.eevee_depth
+    return values
 
 
 def _new_material(name):
@@ -105,30 +131,60 @@ def _new_material(name):
     return material
 
 
-def _build_tree(tree, group):
-    nodes, links = tree.nodes, tree.links
-    attribute = nodes.new("ShaderNodeAttribute")
+def _build_tree(tree):
+    attribute = tree.nodes.new("ShaderNodeAttribute")
     attribute.name = attribute.label = SLOPE_VARIANCE.name
     attribute.attribute_type = "GEOMETRY"
     attribute.attribute_name = SLOPE_VARIANCE_ATTRIBUTE
-    water = nodes.new("ShaderNodeGroup")
-    water.name = water.label = WATER.name
-    water.node_tree = group
+    water = tree.nodes.new("ShaderNodeGroup")
+    water.name = NODE_NAME
+    water.node_tree = ensure_group(WATER)
     water.width = 240.0
-    links.new(attribute.outputs["Vector"], water.inputs[SLOPE_VARIANCE.name])
+    tree.links.new(attribute.outputs["Vector"], water.inputs[SLOPE_VARIANCE.name])
     for socket in (CYCLES, EEVEE):
-        output = nodes.new("ShaderNodeOutputMaterial")
+        output = tree.nodes.new("ShaderNodeOutputMaterial")
         output.name = output.label = f"Output {socket.name}"
         output.target = socket.name.upper()
-        links.new(water.outputs[socket.name], output.inputs["Surface"])
+        tree.links.new(water.outputs[socket.name], output.inputs["Surface"])
     arrange(tree)
+
+
+def _use_group(material, group):
+    """Exchange the group of the material's node; links and values stay with the sockets of the same name."""
+    tree = material.node_tree
+    node = tree.nodes[NODE_NAME]
+    values = {socket.name: _plain(socket) for socket in node.inputs if hasattr(socket, "default_value")}
+    sources = [(link.from_socket, link.to_socket.name) for link in tree.links if link.to_node == node]
+    targets = [(link.from_socket.name, link.to_socket) for link in tree.links if link.from_node == node]
+    node.node_tree = group
+    for name, value in values.items():
+        if name in node.inputs:
+            node.inputs[name].default_value = value
+    for source, name in sources:
+        if name in node.inputs:
+            tree.links.new(source, node.inputs[name])
+    for name, target in targets:
+        if name in node.outputs:
+            tree.links.new(node.outputs[name], target)
+    output = tree.nodes.get(f"Output {CYCLES.name}")
+    see_through = VOLUME.name in node.outputs
+    if see_through and output is not None:
+        tree.links.new(node.outputs[VOLUME.name], output.inputs["Volume"])
+    if bpy.app.version < (5, 0, 0):
+        material.cycles.homogeneous_volume = see_through  # Blender 5 sees it for itself
+    material.use_raytrace_refraction = see_through
+
+
+def _plain(socket):
+    value = socket.default_value
+    return value if np.isscalar(value) else tuple(value)
 
 
 def _apply(material, values):
     """Write the socket values that differ from those written last time."""
     applied = json.loads(material.get(APPLIED_KEY, "{}"))
     values = json.loads(json.dumps(values))  # as they will read back
-    inputs = material.node_tree.nodes[WATER.name].inputs
+    inputs = material.node_tree.nodes[NODE_NAME].inputs
     for name, value in values.items():
         if applied.get(name) != value:
             inputs[name].default_value = value

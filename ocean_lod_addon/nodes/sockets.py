@@ -73,3 +73,46 @@ SUN_ANGLE = Socket(
 GLITTER_STRENGTH = Socket(
     "Glitter Strength", "FLOAT", "Factor on the brightness of the sun's reflection. 1 is physical", 1.0, 0.0, 4.0
 )
+TINT = Socket(
+    "Tint",
+    "COLOR",
+    "Factor on the color of the water, per channel. White is physical",
+    (1.0, 1.0, 1.0, 1.0),
+)
+FORMULA_SUN = Socket(
+    "Formula Sun in Cycles",
+    "FLOAT",
+    "1 to reflect the sun in Cycles by the formula that EEVEE uses instead of by the closure. The Sun light must "
+    "then be invisible to glossy rays",
+    0.0,
+    0.0,
+    1.0,
+    "FACTOR",
+)
+MISSING_SUN = Socket(
+    "Missing Sun in EEVEE",
+    "FLOAT",
+    "1 where EEVEE does not light the sea with this sun, as with the disc of a Sky Texture; 0 for a Sun light",
+    0.0,
+    0.0,
+    1.0,
+    "FACTOR",
+)
+CYCLES = Socket("Cycles", "SHADER", "Surface for Cycles")
+EEVEE = Socket("EEVEE", "SHADER", "Surface for EEVEE")
+VOLUME = Socket("Volume", "SHADER", "The water's inside, for Cycles")
+ABSORPTION = Socket(
+    "Absorption",
+    "VECTOR",
+    "Absorption of light in the water, per channel of linear RGB, 1/m",
+    (0.33, 0.064, 0.034),
+)
+BACKSCATTERING = Socket(
+    "Backscattering",
+    "VECTOR",
+    "Light that the water throws back, per channel of linear RGB, 1/m",
+    (0.0018, 0.0024, 0.0039),
+)
+EEVEE_DEPTH = Socket(
+    "Depth in EEVEE", "FLOAT", "Depth of the bottom that EEVEE reckons with", 10.0, 0.0, 1000.0, "DISTANCE"
+)

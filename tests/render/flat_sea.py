@@ -92,11 +92,11 @@ class FlatSea:
         self.sun.data.energy = irradiance
         self.sun.rotation_euler = (0.0, math.acos(to_sun[2]), math.atan2(to_sun[1], to_sun[0]))
 
-    def render_cycles(self, path, samples=1) -> np.ndarray:
+    def render_cycles(self, path, samples=1, bounces=1) -> np.ndarray:
         """Linear RGB of each column, shape (columns, 3)."""
         cycles = self.scene.cycles
         self.scene.render.engine = "CYCLES"
-        cycles.samples, cycles.max_bounces = samples, 1
+        cycles.samples, cycles.max_bounces = samples, bounces
         cycles.use_adaptive_sampling = cycles.use_denoising = False
         cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
         return self._render(path)

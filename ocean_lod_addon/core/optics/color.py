@@ -44,13 +44,20 @@ def color_matching(wavelength) -> np.ndarray:
     return np.array([x, y, z])
 
 
+def daylight_sensitivity(wavelength) -> np.ndarray:
+    """Shape (3, n): what each wavelength of a reflectance adds to linear Rec. 709 under daylight.
+
+    Each row sums to 1, so that a white surface is (1, 1, 1); some entries are negative.
+    """
+    daylight = np.interp(wavelength, DAYLIGHT_WAVELENGTHS, DAYLIGHT)
+    sensitivity = REC709_FROM_XYZ @ (color_matching(wavelength) * daylight)
+    return sensitivity / sensitivity.sum(axis=1, keepdims=True)
+
+
 def reflectance_to_rec709(wavelength, reflectance) -> np.ndarray:
-    """Linear Rec. 709 colour, shape (3,), of a reflectance spectrum under daylight; reflectance 1 is (1, 1, 1).
+    """Linear Rec. 709 colour, shape (3,), of a reflectance spectrum under daylight.
 
     `wavelength` in nm, `reflectance` of the same shape (n,). Colours outside Rec. 709, such as the blue of the
     clearest ocean, are clamped at 0 per channel.
     """
-    sensitivity = REC709_FROM_XYZ @ (
-        color_matching(wavelength) * np.interp(wavelength, DAYLIGHT_WAVELENGTHS, DAYLIGHT)
-    )
-    return np.maximum(sensitivity @ reflectance / sensitivity.sum(axis=1), 0.0)
+    return np.maximum(daylight_sensitivity(wavelength) @ reflectance, 0.0)

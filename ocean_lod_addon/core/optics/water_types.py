@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .color import daylight_sensitivity
+
 WAVELENGTHS = np.arange(400.0, 701.0, 10.0)
 """Where the spectra are given, nm."""
 
@@ -45,12 +47,12 @@ class WaterContents:
 
 WATER_TYPES = {
     "clear_ocean": WaterContents(0.03),
-    "ocean": WaterContents(0.3),
+    "ocean": WaterContents(0.5),
     "coastal": WaterContents(3.0, humic=0.1, minerals=0.5),
     "river": WaterContents(5.0, humic=1.0, minerals=15.0),
 }
-"""The contents that the material's water types stand for: Jerlov's classes I and III of the open ocean, his
-coastal class 3, and a turbid estuary."""
+"""The contents that the material's water types stand for: Jerlov's classes IA and II of the open ocean, green
+coastal water, and a turbid river."""
 
 
 def absorption(contents: WaterContents) -> np.ndarray:
@@ -97,3 +99,23 @@ def water_leaving_reflectance(contents: WaterContents) -> np.ndarray:
     u = b_b / (absorption(contents) + b_b)
     r = (0.089 + 0.1245 * u) * u
     return np.pi * 0.52 * r / (1.0 - 1.7 * r)
+
+
+TRANSMITTANCE_FLOOR = 1e-4
+"""Keeps the logarithm finite for a channel whose light is gone within the distance that it is judged by."""
+
+
+def rgb_absorption(contents: WaterContents) -> np.ndarray:
+    """Absorption of each channel of linear Rec. 709, 1/m, shape (3,).
+
+    The one that dims daylight as the spectrum does over the length after which half of it is gone, on average.
+    """
+    a = absorption(contents)
+    length = np.log(2.0) / np.mean(a)
+    transmittance = daylight_sensitivity(WAVELENGTHS) @ np.exp(-a * length)
+    return -np.log(np.clip(transmittance, TRANSMITTANCE_FLOOR, 1.0)) / length
+
+
+def rgb_backscattering(contents: WaterContents) -> np.ndarray:
+    """Backscattering of each channel of linear Rec. 709, 1/m, shape (3,); smooth in the spectrum, so a mean."""
+    return np.maximum(daylight_sensitivity(WAVELENGTHS) @ backscattering(contents), 0.0)
