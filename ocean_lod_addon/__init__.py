@@ -7,16 +7,20 @@ downward only: ui and cli -> scene -> nodes -> core (tests/test_architecture.py 
 
 
 def register() -> None:
-    """Make the operator, the panels and the frame-change handler known to Blender."""
+    """Make the operator, the panels, the frame-change handler and the command line known to Blender."""
     from . import scene, ui
+    from .cli import blender_command
 
     scene.register()
     ui.register()
+    blender_command.register()
 
 
 def unregister() -> None:
     """Undo `register()`, in the reverse order."""
     from . import scene, ui
+    from .cli import blender_command
 
+    blender_command.unregister()
     ui.unregister()
     scene.unregister()

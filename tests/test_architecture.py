@@ -20,7 +20,7 @@ MAY_IMPORT = {
     "scene": {"core", "nodes", "scene"},
     "ui": {"core", "nodes", "scene", "ui"},
     "cli": {"core", "nodes", "scene", "ui", "cli", "__init__"},
-    "__init__": {"scene", "ui"},
+    "__init__": {"scene", "ui", "cli"},
     "__main__": {"cli"},
 }
 
