@@ -14,7 +14,7 @@ from numbers import Integral, Real
 from .errors import OceanError, OutOfRangeError
 
 _METADATA_KEY = "parameter"
-_FILE_SUFFIX = {"": "", "m": "_m", "s": "_s", "m/s": "_m_s", "rad": "_deg", "mm": "_mm"}
+_FILE_SUFFIX = {"": "", "m": "_m", "s": "_s", "m/s": "_m_s", "rad": "_deg", "mm": "_mm", "frames": ""}
 
 
 @dataclass(frozen=True)
@@ -160,7 +160,7 @@ def allowed_text(parameter: Parameter) -> str:
 
 
 def file_key(name: str, parameter: Parameter) -> str:
-    """The key of a parameter in files and the command line: its name and its unit, such as wind_speed_m_s."""
+    """The key of a parameter in files: its name and its unit, such as wind_speed_m_s."""
     if isinstance(parameter, Number | Integer):
         return name + _FILE_SUFFIX[parameter.unit]
     return name

@@ -158,13 +158,15 @@ class Sea:
         64,
     )
     seed: int = integer("Seed", "Another number gives another sea of the same kind", 0, 0, LARGEST_SEED)
-    loop_period: float = number(
-        "Loop Period", "Time in s after which the sea repeats exactly; 0 never repeats", 0.0, 0.0, 1e5, "s", 60.0
-    )
+    loop_period: float = 0.0
+    """Time in s after which the sea repeats exactly; 0 never repeats. No parameter of a sea state: it belongs to
+    the shot, whose clock makes it of a number of frames (core.ocean_time)."""
 
     def __post_init__(self):
         if not isinstance(self.systems, tuple) or not all(isinstance(s, WaveSystem) for s in self.systems):
             raise OutOfRangeError("systems", self.systems, "a tuple of wave systems")
+        if not 0.0 <= self.loop_period < math.inf:
+            raise OutOfRangeError("loop_period", self.loop_period, "0 or more seconds")
         validate(self)
 
     @property

@@ -20,8 +20,8 @@ from ..core.ocean import Ocean, Surface
 from ..core.ocean_time import sea_time
 from ..core.sea import Sea
 from ..nodes.material import MATERIAL_KEY, ensure_material, find_material
+from . import clock, properties
 from . import mesh as mesh_arrays
-from . import properties
 
 _MODIFIER_NAME = "Ocean LOD"
 
@@ -82,12 +82,14 @@ def visible_oceans(scene, depsgraph) -> list:
 
 
 def scene_sea_time(evaluated, scene) -> float:
-    """The clock of an (evaluated) ocean, s, at the scene's current frame and sub-frame.
+    """The clock of an (evaluated) ocean, s, at the scene's current frame and sub-frame."""
+    settings = properties.read_time(evaluated.ocean_lod)
+    return sea_time(settings, clock.current_frame(scene), clock.frames_per_second(scene))
 
-    frame_current_final has the sub-frame and the scene's time remapping in it.
-    """
-    frames_per_second = scene.render.fps / scene.render.fps_base
-    return sea_time(properties.read_time(evaluated.ocean_lod), scene.frame_current_final, frames_per_second)
+
+def read_ocean(evaluated, scene) -> Ocean:
+    """What an (evaluated) ocean is made from, in a scene of this frame rate. Raises OceanError."""
+    return properties.read_ocean(evaluated.ocean_lod, clock.frames_per_second(scene))
 
 
 def update(ob, scene, depsgraph) -> None:
@@ -96,7 +98,7 @@ def update(ob, scene, depsgraph) -> None:
     Settings are read from the evaluated object: during a render, animation reaches only that one.
     """
     evaluated = ob.evaluated_get(depsgraph)
-    _write_surface(ob, properties.read_ocean(evaluated.ocean_lod), scene_sea_time(evaluated, scene))
+    _write_surface(ob, read_ocean(evaluated, scene), scene_sea_time(evaluated, scene))
 
 
 def update_reporting(ob, scene, depsgraph) -> None:
@@ -140,7 +142,7 @@ def refresh_material(ob, scene) -> None:
 
 
 def _rebuild_and_move(ob, scene):
-    ocean = properties.read_ocean(ob.ocean_lod)
+    ocean = read_ocean(ob, scene)
     if not mesh_arrays.has_geometry_for(ob.data, ocean.grid.vertex_count):
         mesh_arrays.build_topology(ob.data, ocean.grid)
     _write_surface(ob, ocean, scene_sea_time(ob, scene))

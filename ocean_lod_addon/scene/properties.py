@@ -2,13 +2,14 @@
 """What an ocean object remembers: its settings, as Blender properties that can be keyed, saved and undone."""
 
 import contextlib
+import dataclasses
 
 import bpy
 
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
 from ..core.ocean import Ocean
-from ..core.ocean_time import OceanTime
+from ..core.ocean_time import OceanTime, loop_period
 from ..core.sea import Sea, WaveSystem
 from . import rna
 
@@ -91,10 +92,21 @@ _CLASSES = (
 )
 
 
-def read_ocean(properties) -> Ocean:
-    """The ocean that an object's properties describe. Raises OceanError if they do not go together."""
+def read_sea(properties) -> Sea:
+    """The sea state that an object's properties describe, without the shot's loop."""
     systems = tuple(rna.read(WaveSystem, group) for group in properties.sea.systems)
-    return Ocean(rna.read(Sea, properties.sea, systems=systems), rna.read(Grid, properties.grid))
+    return rna.read(Sea, properties.sea, systems=systems)
+
+
+def read_ocean(properties, frames_per_second: float) -> Ocean:
+    """The ocean that an object's properties describe. Raises OceanError if they do not go together.
+
+    The frame rate (scene.clock) says how long the frames of a loop take.
+    """
+    sea = dataclasses.replace(
+        read_sea(properties), loop_period=loop_period(read_time(properties), frames_per_second)
+    )
+    return Ocean(sea, rna.read(Grid, properties.grid))
 
 
 def read_time(properties) -> OceanTime:

@@ -4,6 +4,7 @@
 Names, ranges, units and tooltips come from `core.parameters` alone.
 """
 
+import math
 import typing
 
 import bpy
@@ -12,6 +13,9 @@ import numpy as np
 from ..core.parameters import Choice, Integer, Number, Parameter, Switch, Text, parameters_of
 
 _DECIMALS = 4
+
+_LONGEST_FLOAT32 = 10
+"""Nine decimal digits tell any two float32 apart."""
 
 
 def annotations(settings_class, update, not_animatable=()) -> dict:
@@ -80,10 +84,26 @@ def read(settings_class, group, **other_fields):
 
 
 def _python_value(value, parameter):
-    """The number a person typed: Blender keeps float32, whose shortest decimal form is what was meant."""
+    """The value a person typed: Blender keeps float32, whose shortest decimal form is what was meant."""
     if isinstance(parameter, Number):
-        return min(max(float(str(np.float32(value))), parameter.minimum), parameter.maximum)
+        typed = typed_angle(value) if parameter.unit == "rad" else typed_number(value)
+        return min(max(typed, parameter.minimum), parameter.maximum)
     return value
+
+
+def typed_number(value: float) -> float:
+    """The shortest decimal number that Blender would keep as this float32 value."""
+    return float(str(np.float32(value)))
+
+
+def typed_angle(value: float) -> float:
+    """The angle in rad whose number of degrees is the shortest that Blender would keep as this float32 value."""
+    kept = np.float32(value)
+    for digits in range(1, _LONGEST_FLOAT32):
+        radians = math.radians(float(f"{math.degrees(value):.{digits}g}"))
+        if np.float32(radians) == kept:
+            return radians
+    return typed_number(value)
 
 
 def write(settings, group) -> None:

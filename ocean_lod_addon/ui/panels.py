@@ -118,7 +118,6 @@ class OCEAN_LOD_PT_sea(_OceanPanel, bpy.types.Panel):
         column.prop(sea, "wave_count")
         column.prop(sea, "directions")
         column.prop(sea, "seed")
-        column.prop(sea, "loop_period")
         column.prop(sea, "surface_tension")
 
 
@@ -139,6 +138,7 @@ class OCEAN_LOD_PT_time(_OceanPanel, bpy.types.Panel):
         row.prop(time, "time")
         layout.prop(time, "speed")
         layout.prop(time, "offset")
+        layout.prop(time, "loop_frames")
 
 
 class OCEAN_LOD_PT_mesh(_OceanPanel, bpy.types.Panel):

@@ -11,7 +11,7 @@ from ocean_lod_addon.core.lod import tiles
 from ocean_lod_addon.core.waves import WaveSet
 from ocean_lod_addon.core.windows import window, window_reach
 from ocean_lod_addon.scene import mesh as mesh_arrays
-from ocean_lod_addon.scene import ocean_object, properties
+from ocean_lod_addon.scene import ocean_object
 
 CELLS, LEVELS = 64, 5
 
@@ -29,7 +29,7 @@ def ocean():
 
 
 def surface_of(ob):
-    return ocean_object._surface(properties.read_ocean(ob.ocean_lod))
+    return ocean_object._surface(ocean_object.read_ocean(ob, bpy.context.scene))
 
 
 def vertices_by_api(ob):
