@@ -78,7 +78,7 @@ def height_material():
 
 def expected_heights(ob, frame, fps):
     """Height of the surface of `frame` at x, y: interpolated between its vertices, computed without Blender."""
-    surface = ocean_object.Surface(ocean_object.read_ocean(ob, scene))
+    surface = ocean_object.Surface(ocean_object.read_ocean(ob, bpy.context.scene))
     positions = np.empty((surface.vertex_count, 3), np.float32)
     surface.positions(ocean_time.sea_time(ocean_time.OceanTime(), frame, fps), positions)
     return LinearNDInterpolator(positions[:, :2], positions[:, 2])
