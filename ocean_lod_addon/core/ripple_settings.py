@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of the ripples: the waves that are too short for the mesh and long enough for the eye."""
+
+from dataclasses import dataclass
+
+from .errors import OceanError
+from .parameters import Option, choice, number, switch, validate
+
+
+@dataclass(frozen=True)
+class Ripples:
+    """How the waves between the mesh and the BRDF are shown."""
+
+    kind: str = choice(
+        "Ripples",
+        "How the waves that are too short for the mesh are shown",
+        "spectral",
+        (
+            Option("off", "Off", "Not at all: as roughness only"),
+            Option(
+                "random",
+                "Random",
+                "A still texture of random slopes, stronger on high water: costs nothing per frame, but does not"
+                " move as waves do",
+            ),
+            Option(
+                "spectral",
+                "Spectral",
+                "The short waves of this very sea, each moving at its own speed: images written anew for each"
+                " frame",
+            ),
+        ),
+    )
+    resolution: str = choice(
+        "Resolution",
+        "Pixels along each side of a ripple image. A larger image holds more lengths of waves: fewer images to"
+        " look up when rendering, more work before each frame",
+        "512",
+        (
+            Option("256", "256", "Least work per frame, most images to look up"),
+            Option("512", "512", "The middle way"),
+            Option("1024", "1024", "Most work per frame, fewest images to look up"),
+        ),
+    )
+    shortest_wavelength: float = number(
+        "Shortest Ripple",
+        "Shorter ripples are left to roughness. Twice the size of a pixel on the nearest water is short enough",
+        0.006,
+        0.001,
+        10.0,
+        "m",
+        soft_maximum=1.0,
+    )
+    longest_wavelength: float = number(
+        "Longest Wave",
+        "Longer waves are left to roughness where the mesh is too coarse for them. Four times the height of the"
+        " camera is long enough",
+        8.0,
+        0.05,
+        1000.0,
+        "m",
+        soft_maximum=100.0,
+    )
+    gusts: bool = switch(
+        "Gusts", "Cat's paws: ripples are stronger here and weaker there, drifting with the wind", False
+    )
+    gust_strength: float = number(
+        "Gust Strength", "How much the slope variance of the ripples varies, relative to its mean", 0.5, 0.0, 1.0
+    )
+    gust_size: float = number("Gust Size", "Distance between gusts", 60.0, 1.0, 10e3, "m", soft_maximum=1000.0)
+
+    def __post_init__(self):
+        validate(self)
+        if self.longest_wavelength < 2.0 * self.shortest_wavelength:
+            raise OceanError(
+                f"longest_wavelength is {self.longest_wavelength:g} m, allowed is twice the shortest ripple"
+                f" ({self.shortest_wavelength:g} m) or more"
+            )
+
+    @property
+    def texels(self) -> int:
+        """Pixels along each side of an image."""
+        return int(self.resolution)
+
+
+OFF = Ripples(kind="off")
+"""An ocean without ripples."""
