@@ -7,10 +7,11 @@ file, the key, the value and what is allowed.
 
 import dataclasses
 import json
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .errors import OceanError
+from .errors import OceanError, OutOfRangeError
 from .material_settings import MaterialSettings
 from .parameters import mapping_from_settings, settings_from_mapping
 from .sea import LARGEST_SEED, Sea, WaveSystem
@@ -20,13 +21,19 @@ SCHEMA_VERSION = 1
 FOLDER = Path(__file__).parents[2] / "presets"
 """The presets that come with the extension."""
 
-_SECTIONS = ("schema_version", "description", "sea", "material", "shot")
+_SECTIONS = ("schema_version", "title", "description", "sea", "material", "shot")
+
+_LONGEST_NAME = 60
+_NOT_IN_FILE_NAMES = frozenset('<>:"/\\|?*')
+_NAMES_OF_DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+"""Windows takes these for devices, with any ending."""
 
 
 @dataclass(frozen=True)
 class Preset:
     """One preset: what the sea is, what the water is, and a shot that shows it."""
 
+    title: str = ""
     description: str = ""
     sea: Sea = field(default_factory=Sea)
     material: MaterialSettings = field(default_factory=MaterialSettings)
@@ -36,6 +43,16 @@ class Preset:
 def names(folder: Path = FOLDER) -> list[str]:
     """Names of the presets in a folder, sorted."""
     return sorted(path.stem for path in folder.glob("*.json"))
+
+
+def check_name(name: str) -> None:
+    """Raise `OutOfRangeError` unless a preset can have this name, which names its file, on every system."""
+    bad_sign = any(c in _NOT_IN_FILE_NAMES or not c.isprintable() for c in name)
+    bad_length = not 1 <= len(name) <= _LONGEST_NAME
+    if bad_sign or bad_length or name != name.strip(" .") or _NAMES_OF_DEVICES.fullmatch(name):
+        raise OutOfRangeError(
+            "preset name", name, f"1 to {_LONGEST_NAME} letters, digits, blanks and signs that file names can have"
+        )
 
 
 def load(name: str, folder: Path = FOLDER) -> Preset:
@@ -50,7 +67,7 @@ def load(name: str, folder: Path = FOLDER) -> Preset:
 def read(path: Path) -> Preset:
     """The preset in a file. Raises OceanError naming the file and what is wrong with it."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")  # some editors begin a file with a byte order mark
     except (OSError, UnicodeDecodeError) as error:
         raise OceanError(f"{path.name}: can not be read: {error}") from None
     return parse(text, path.name)
@@ -60,7 +77,7 @@ def parse(text: str, where: str) -> Preset:
     """The preset in a text; `where` names it in errors. Raises OceanError."""
     try:
         content = json.loads(text)
-    except json.JSONDecodeError as error:
+    except (ValueError, RecursionError) as error:
         raise OceanError(f"{where}: not JSON: {error}") from None
     if not isinstance(content, dict):
         raise OceanError(f"{where}: expected a table of sections, found {type(content).__name__}")
@@ -70,11 +87,12 @@ def parse(text: str, where: str) -> Preset:
     unknown = [key for key in content if key not in _SECTIONS]
     if unknown:
         raise OceanError(f"{where}: unknown key {unknown[0]!r}, allowed is {', '.join(_SECTIONS)}")
-    description = content.get("description", "")
-    if not isinstance(description, str):
-        raise OceanError(f"{where}: description is {description!r}, allowed is text")
+    for key in ("title", "description"):
+        if not isinstance(content.get(key, ""), str):
+            raise OceanError(f"{where}: {key} is {content[key]!r}, allowed is text")
     return Preset(
-        description,
+        content.get("title", ""),
+        content.get("description", ""),
         _sea(content.get("sea", {}), f"{where}: sea"),
         settings_from_mapping(MaterialSettings, content.get("material", {}), f"{where}: material"),
         settings_from_mapping(Shot, content.get("shot", {}), f"{where}: shot"),
@@ -100,6 +118,7 @@ def to_text(preset: Preset) -> str:
     sea["systems"] = [mapping_from_settings(system) for system in preset.sea.systems]
     content = {
         "schema_version": SCHEMA_VERSION,
+        "title": preset.title,
         "description": preset.description,
         "sea": sea,
         "material": mapping_from_settings(preset.material),
@@ -110,7 +129,7 @@ def to_text(preset: Preset) -> str:
 
 def write(preset: Preset, path: Path) -> None:
     """Write a preset file, whole or not at all. Raises OceanError if the place can not be written."""
-    partial = path.with_suffix(".part")
+    partial = path.with_name(path.name + ".part")
     try:
         partial.write_text(to_text(preset), encoding="utf-8")
         partial.replace(path)
