@@ -12,7 +12,7 @@ from ..core.constants import WATER_REFRACTIVE_INDEX
 from ..core.optics import beckmann
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe, Socket
-from .sockets import BSDF, MAJOR_VARIANCE, MEAN_FRESNEL, MINOR_VARIANCE
+from .sockets import BSDF, MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE
 
 RADIANCE_OUT_OF_WATER = 1.0 / WATER_REFRACTIVE_INDEX**2
 """Light that leaves the water spreads over a wider cone and loses radiance by 1/n^2; Cycles leaves that out."""
@@ -26,7 +26,7 @@ def _build(graph: Graph):
     with graph.section("Slope variance to roughness"):
         major, minor = graph.input(MAJOR_VARIANCE.name), graph.input(MINOR_VARIANCE.name)
         roughness = beckmann.glossy_sockets(ops, major, minor).roughness
-        transmitted = graph.label(1.0 - graph.input(MEAN_FRESNEL.name), "transmitted share")
+        transmitted = graph.label(1.0 - graph.input(REFLECTED_SHARE.name), "transmitted share")
     shape = {"Roughness": roughness, "IOR": WATER_REFRACTIVE_INDEX}
     with graph.section("From above"):
         leaving = graph.label(transmitted * RADIANCE_OUT_OF_WATER, "radiance out of water")
@@ -53,8 +53,8 @@ def _build(graph: Graph):
 
 CLEAR_SURFACE = GroupRecipe(
     "Ocean LOD Clear Surface",
-    "1",
-    inputs=(REFLECTION_FROM_ABOVE, MAJOR_VARIANCE, MINOR_VARIANCE, MEAN_FRESNEL),
+    "2",
+    inputs=(REFLECTION_FROM_ABOVE, MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE),
     outputs=(BSDF,),
     build=_build,
 )

@@ -40,10 +40,10 @@ MINOR_VARIANCE = Socket(
 TANGENT = Socket(
     "Tangent", "VECTOR", "Unit vector along the rougher axis, in world space", hide_value=True
 )
-MEAN_FRESNEL = Socket(
-    "Mean Fresnel",
+REFLECTED_SHARE = Socket(
+    "Reflected Share",
     "FLOAT",
-    "Share of the light that the visible facets reflect, averaged over their slopes",
+    "Share of a uniform sky's light that the surface reflects to the viewer, averaged over the visible slopes",
     0.02,
     0.0,
     1.0,

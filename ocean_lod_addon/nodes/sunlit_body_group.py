@@ -9,7 +9,7 @@ import math
 
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe
-from .sockets import BSDF, MEAN_FRESNEL, SUN_DIRECTION, SUN_IRRADIANCE, WATER_COLOR
+from .sockets import BSDF, REFLECTED_SHARE, SUN_DIRECTION, SUN_IRRADIANCE, WATER_COLOR
 
 
 def _build(graph: Graph):
@@ -20,7 +20,7 @@ def _build(graph: Graph):
         cos_sun = ops.maximum(normal.dot(graph.input(SUN_DIRECTION.name)), 0.0)
         cos_sun = graph.label(cos_sun, "cos of sun angle")
     with graph.section("Radiance"):
-        transmitted = graph.label(1.0 - graph.input(MEAN_FRESNEL.name), "transmitted share")
+        transmitted = graph.label(1.0 - graph.input(REFLECTED_SHARE.name), "transmitted share")
         color = graph.input(WATER_COLOR.name).times(graph.input(SUN_IRRADIANCE.name))
         strength = cos_sun * transmitted * (1.0 / math.pi)
         emission = graph.node("ShaderNodeEmission", "Sunlit water", {"Color": color, "Strength": strength})
@@ -29,8 +29,8 @@ def _build(graph: Graph):
 
 SUNLIT_BODY = GroupRecipe(
     "Ocean LOD Sunlit Body",
-    "1",
-    inputs=(WATER_COLOR, MEAN_FRESNEL, SUN_DIRECTION, SUN_IRRADIANCE),
+    "2",
+    inputs=(WATER_COLOR, REFLECTED_SHARE, SUN_DIRECTION, SUN_IRRADIANCE),
     outputs=(BSDF,),
     build=_build,
 )

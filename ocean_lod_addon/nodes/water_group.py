@@ -9,7 +9,7 @@ from typing import NamedTuple
 from .body_group import WATER_BODY
 from .graph import Color, Graph, Shader
 from .groups import GroupRecipe, use_group
-from .mean_fresnel_group import MEAN_FRESNEL_OF_SLOPES
+from .reflected_share_group import REFLECTED_SHARE_OF_SLOPES
 from .reflection_group import REFLECTION
 from .sky_reflection_group import SKY_REFLECTION
 from .slopes_group import SLOPES
@@ -28,7 +28,7 @@ from .sockets import (
     TINT,
     WATER_COLOR,
 )
-from .sun_group import SUN
+from .sun_group import SUN, SUN_BESIDE_CLOSURE
 from .sunlit_body_group import SUNLIT_BODY
 
 SUN_SOCKETS = (SUN_DIRECTION, SUN_IRRADIANCE, SUN_ANGLE)
@@ -45,34 +45,43 @@ WATER_SOCKETS = (
 )
 """What the material shows, whether one sees into the water or not."""
 
-PARTS = (SLOPES, MEAN_FRESNEL_OF_SLOPES, REFLECTION, WATER_BODY, SKY_REFLECTION, SUN, SUNLIT_BODY)
+PARTS = (
+    SLOPES,
+    REFLECTED_SHARE_OF_SLOPES,
+    REFLECTION,
+    WATER_BODY,
+    SKY_REFLECTION,
+    SUN,
+    SUN_BESIDE_CLOSURE,
+    SUNLIT_BODY,
+)
 
 
 class Surface(NamedTuple):
     """What both engines need of the surface: inputs of groups, by socket name."""
 
     slopes: dict
-    mean_fresnel: dict
+    reflected_share: dict
     color: Color
     sun: dict
 
 
 def surface(graph: Graph) -> Surface:
-    """The sections that find the unresolved slopes, the mean Fresnel reflectance and the tinted color."""
+    """The sections that find the unresolved slopes, the reflected share and the tinted color."""
     with graph.section("Unresolved slopes"):
         inputs = {socket.name: graph.input(socket.name) for socket in (SLOPE_VARIANCE, ROUGHNESS)}
         slopes = use_group(graph, SLOPES, inputs)
-    with graph.section("Mean Fresnel"):
-        mean_fresnel = use_group(graph, MEAN_FRESNEL_OF_SLOPES, slopes)
+    with graph.section("Reflected share"):
+        reflected_share = use_group(graph, REFLECTED_SHARE_OF_SLOPES, slopes)
     with graph.section("Water color"):
         color = graph.label(graph.input(WATER_COLOR.name).times(graph.input(TINT.name)), "tinted color")
     sun = slopes | {socket.name: graph.input(socket.name) for socket in SUN_SOCKETS}
-    return Surface(slopes, mean_fresnel, color, sun)
+    return Surface(slopes, reflected_share, color, sun)
 
 
 def body(graph: Graph, parts: Surface, color: Color) -> Shader:
     """Light of the whole scene that comes back out of water of the given color."""
-    return use_group(graph, WATER_BODY, {WATER_COLOR.name: color, **parts.mean_fresnel})[BSDF.name]
+    return use_group(graph, WATER_BODY, {WATER_COLOR.name: color, **parts.reflected_share})[BSDF.name]
 
 
 def cycles_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
@@ -84,13 +93,15 @@ def cycles_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
     closure = use_group(graph, REFLECTION, parts.slopes)[BSDF.name]
     surplus = graph.input(GLITTER_STRENGTH.name) - 1.0 + graph.input(FORMULA_SUN.name)
     surplus = graph.label(surplus, "glitter beyond the closure's")
-    return closure, use_group(graph, SUN, parts.sun | {GLITTER_STRENGTH.name: surplus})[BSDF.name]
+    inputs = parts.sun | {GLITTER_STRENGTH.name: surplus, FORMULA_SUN.name: graph.input(FORMULA_SUN.name)}
+    inputs = {socket.name: inputs[socket.name] for socket in SUN_BESIDE_CLOSURE.inputs}
+    return closure, use_group(graph, SUN_BESIDE_CLOSURE, inputs)[BSDF.name]
 
 
 def eevee_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
     """The sky's reflection, and the sun's by the formula."""
     variances = {socket.name: parts.slopes[socket.name] for socket in SKY_REFLECTION.inputs[:2]}
-    sky = use_group(graph, SKY_REFLECTION, variances | parts.mean_fresnel)[BSDF.name]
+    sky = use_group(graph, SKY_REFLECTION, variances | parts.reflected_share)[BSDF.name]
     strength = {GLITTER_STRENGTH.name: graph.input(GLITTER_STRENGTH.name)}
     return sky, use_group(graph, SUN, parts.sun | strength)[BSDF.name]
 
@@ -98,7 +109,7 @@ def eevee_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
 def eevee_sunlit_body(graph: Graph, parts: Surface, color: Color) -> Shader:
     """The body in the light of a sun that EEVEE leaves out."""
     missing = graph.input(SUN_IRRADIANCE.name) * graph.input(MISSING_SUN.name)
-    inputs = parts.mean_fresnel | {
+    inputs = parts.reflected_share | {
         WATER_COLOR.name: color,
         SUN_DIRECTION.name: graph.input(SUN_DIRECTION.name),
         SUN_IRRADIANCE.name: graph.label(missing, "sun that EEVEE leaves out"),
@@ -119,5 +130,5 @@ def _build(graph: Graph):
 
 
 WATER = GroupRecipe(
-    "Ocean LOD Water", "4", inputs=WATER_SOCKETS, outputs=(CYCLES, EEVEE), build=_build, needs=PARTS
+    "Ocean LOD Water", "6", inputs=WATER_SOCKETS, outputs=(CYCLES, EEVEE), build=_build, needs=PARTS
 )

@@ -9,8 +9,8 @@ from ocean_lod_addon.core.constants import WATER_REFRACTIVE_INDEX
 from ocean_lod_addon.core.ops import NumpyOps
 from ocean_lod_addon.core.optics import beckmann, ross
 from ocean_lod_addon.core.optics.cox_munk import SLOPE_VARIANCE_FLOOR
-from ocean_lod_addon.core.optics.mean_fresnel import mean_fresnel
 from ocean_lod_addon.core.optics.principal_slopes import principal_slopes
+from ocean_lod_addon.core.optics.reflected_share import reflected_share
 from ocean_lod_addon.core.optics.slope_density import GaussianSlopes, GramCharlierSlopes
 from ocean_lod_addon.nodes.graph import GraphOps
 from ocean_lod_addon.nodes.groups import GroupRecipe, Socket, ensure_group
@@ -97,12 +97,12 @@ def test_closure_sockets_as_nodes():
         assert node == pytest.approx(array, rel=1e-5, abs=1e-6)
 
 
-def test_mean_fresnel_as_nodes():
+def test_reflected_share_as_nodes():
     rng = np.random.default_rng(5)
-    arguments = {"cos": rng.uniform(0.0, 1.0, COUNT), "spread": rng.uniform(0.0, 0.4, COUNT)}
+    arguments = {"cos": rng.uniform(0.0, 1.0, COUNT), "spread": rng.uniform(1e-10, 0.4, COUNT)}
 
     def formula(ops, cos_view, spread):
-        return (mean_fresnel(ops, cos_view, spread, WATER_REFRACTIVE_INDEX),)
+        return (reflected_share(ops, cos_view, spread, WATER_REFRACTIVE_INDEX),)
 
     (node,) = as_nodes(formula, arguments, 1)
     (array,) = in_float32(formula, arguments)

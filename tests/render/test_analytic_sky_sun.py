@@ -46,7 +46,7 @@ def picture(path):
 @pytest.mark.parametrize("sky_type", SKY_TYPES)
 @pytest.mark.parametrize(
     ("elevation", "rotation", "altitude", "air", "aerosols"),
-    [(45.0, 30.0, 100.0, 1.0, 1.0), (15.0, -40.0, 0.0, 1.0, 2.0), (4.0, 170.0, 500.0, 0.5, 0.5)],
+    [(30.0, -40.0, 100.0, 1.0, 2.0), (4.0, 170.0, 500.0, 0.5, 0.5)],
 )
 def test_direction_and_irradiance(sky_type, elevation, rotation, altitude, air, aerosols, tmp_path):
     """Truth: the picture with the disc minus the picture without, times the solid angle of a pixel.

