@@ -12,113 +12,198 @@ so the corrected Eq. 2 of the paper, summed over waves i, is for each tile of th
     positions    = L @ R
 
 with weights i C cos(theta), i C sin(theta), 1 for x, y, z (C the orbit ratio) and the window w_i of each wave.
-R never changes with time; per frame only L is formed, a vector of phases times a static matrix. Phases are
-formed in float64 on line coordinates and reduced modulo 2 pi before they are rounded, so that precision does
-not depend on where or when. Waves are sorted from short to long: a tile far out drops the short ones, whose
-windows are zero there, by taking the tail of the inner dimension.
+Lines are counted from their level's anchor, whose own phase k . anchor joins phi. R changes only with the anchors,
+and then only for waves that fade within the level; per frame only L is formed, a vector of phases times a static
+matrix. Phases are formed in float64 and reduced modulo 2 pi before they are rounded, so that precision does not
+depend on where or when. Waves are sorted from short to long: a tile far out drops the short ones, whose windows
+are zero there, by taking the tail of the inner dimension, and a tile that nobody sees drops them all.
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 
+from .constants import EARTH_RADIUS
 from .contraction import CONTRACTIONS, Product, fastest_contraction
 from .lod import Grid, tiles
 from .waves import WaveSet
-from .windows import window, window_reach
-
-_BASE_COLUMNS = 2  # x_a and 1, the undisturbed plane; last, so that the small terms are summed first
-
-
-@dataclass(frozen=True, eq=False)
-class _Level:
-    """One level's factors. `first_wave` is the first (shortest) of the sorted waves present in it."""
-
-    first_wave: int
-    static_left: np.ndarray  # exp(i kx x_a) w(x_a), (lines, waves) complex64
-    left: np.ndarray  # L, (lines, 2 waves + 2) float32, refilled each frame
-    right: np.ndarray  # R, (2 waves + 2, 3 lines) float32
+from .windows import FADE_START, window, window_levels, window_reach
 
 
 class FrameKernel:
-    """Positions of a plane's vertices at any time, for one grid and one set of waves.
+    """Positions of a plane's vertices at any time and place, for one grid and one set of waves.
 
-    Building it costs some tens of milliseconds; `evaluate` is the fast part. It holds no state of earlier
-    frames: `left` above is scratch memory.
+    Building it costs some tens of milliseconds; `evaluate` is the fast part. Its result depends on its arguments
+    alone: the factors it keeps are scratch memory that remembers which anchors it was filled for.
     """
 
-    def __init__(self, grid: Grid, waves: WaveSet, contraction: str | None = None):
-        """`contraction` is one of contraction.CONTRACTIONS, or None for the fastest here."""
-        order = np.argsort(waves.wavelength, kind="stable")
-        reach = window_reach(grid, waves.wavelength[order])
+    def __init__(self, grid: Grid, waves: WaveSet, contraction: str | None = None, curved_earth: bool = False):
+        """`contraction` is one of contraction.CONTRACTIONS, or None for the one that suits this NumPy.
+
+        With `curved_earth` the plane sinks by d^2 / (2 R) at the distance d from the finest level's anchor.
+        """
+        self._grid = grid
         self._waves = waves
+        self._order = np.argsort(waves.wavelength, kind="stable")
         self._multiply = CONTRACTIONS[contraction or fastest_contraction()]
-        self._order = order
-        self._levels = [_build_level(grid, level, waves, order, reach) for level in range(grid.levels)]
         self._tiles = tiles(grid.cells, grid.levels)
-        self._first_waves = [_first_wave_of_tile(grid, tile, reach) for tile in self._tiles]
+        self._levels = [_Level(grid, level, waves, self._order, curved_earth) for level in range(grid.levels)]
+        reach = window_reach(grid, waves.wavelength[self._order])
+        self._first_waves = [_first_wave(grid, tile, reach) for tile in self._tiles]
 
     @property
     def vertex_count(self) -> int:
         """Number of vertices."""
         return self._tiles[-1].vertices.stop
 
-    def evaluate(self, time: float, out: np.ndarray) -> None:
-        """Write the positions at `time` (s) into `out`, (vertex_count, 3) float32, C-contiguous, in m."""
-        self.fill_left(time)
-        self._multiply(self.products(out))
+    def evaluate(self, time: float, anchors: np.ndarray, out: np.ndarray, visible=None) -> None:
+        """Write the positions at `time` (s) into `out`, (vertex_count, 3) float32, C-contiguous, in m.
 
-    def fill_left(self, time: float) -> None:
-        """Form the left factors of all levels at `time`: one complex multiplication per line and wave."""
-        phasor = self._waves.amplitude * np.exp(1j * self._waves.phase_at(time))
-        phasor = phasor[self._order].astype(np.complex64)
-        for level in self._levels:
-            as_complex = level.left.view(np.complex64)[:, :-1]
-            np.multiply(level.static_left, phasor[level.first_wave :], out=as_complex)
+        anchors   (levels, 2) float64, m: where each level's lattice is centred, from `lod.level_anchors`
+        visible   a flag for each tile, or None for all; tiles without it lie flat
+        """
+        self.fill_factors(time, anchors)
+        self._multiply(self.products(out, visible))
 
-    def products(self, out: np.ndarray) -> list[Product]:
+    def fill_factors(self, time: float, anchors: np.ndarray) -> None:
+        """Form the factors of all levels at `time`: per line and wave one complex multiplication."""
+        phase = self._waves.phase_at(time)
+        k, theta = self._waves.wavenumber, self._waves.direction
+        for number, level in enumerate(self._levels):
+            x, y = anchors[number]
+            at_anchor = np.mod(phase + k * (x * np.cos(theta) + y * np.sin(theta)), 2.0 * np.pi)
+            phasor = self._waves.amplitude * np.exp(1j * at_anchor)
+            level.fill(phasor[self._order].astype(np.complex64), anchors)
+
+    def products(self, out: np.ndarray, visible=None) -> list[Product]:
         """The matrix products of one frame, tile by tile, into `out`, (vertex_count, 3) float32."""
         result = []
-        for tile, first_wave in zip(self._tiles, self._first_waves, strict=True):
+        for number, (tile, first_wave) in enumerate(zip(self._tiles, self._first_waves, strict=True)):
             level = self._levels[tile.level]
-            inner = slice(2 * (first_wave - level.first_wave), None)
+            flat = visible is not None and not visible[number]
+            skipped = level.wave_count if flat else first_wave - level.first_wave
             result.append(
                 Product(
-                    level.left[tile.row_start : tile.row_stop, inner],
-                    level.right[inner, 3 * tile.column_start : 3 * tile.column_stop],
+                    level.left[tile.row_start : tile.row_stop, 2 * skipped :],
+                    level.right[2 * skipped :, 3 * tile.column_start : 3 * tile.column_stop],
                     out[tile.vertices].reshape(tile.rows, 3 * tile.columns),
                 )
             )
         return result
 
 
-def _build_level(grid, level, waves, order, reach):
-    lines = grid.lines(level)
-    nearest = 0.0 if level == 0 else grid.lines(level)[3 * grid.cells // 4 + 1]
-    first_wave = int(np.searchsorted(reach, nearest, side="right"))
-    present = order[first_wave:]
-    window_on_lines = window(np.abs(lines)[:, None], reach[None, first_wave:])
-    theta, k = waves.direction[present], waves.wavenumber[present]
+class _Level:
+    """One level's factors L and R, and what is needed to refill them.
 
-    static_left = window_on_lines * np.exp(1j * np.outer(lines, k * np.cos(theta)))
-    left = np.empty((len(lines), 2 * len(present) + _BASE_COLUMNS), np.float32)
-    left[:, -2], left[:, -1] = lines, 1.0
+    The last rows of R are the undisturbed plane, last so that small terms are summed first. They multiply the
+    columns x, 1 of L, and with a curved Earth also x^2, which takes a second column (1 again, times 0) to keep L
+    an array of complex pairs.
+    """
 
-    q = (window_on_lines * np.exp(1j * np.outer(lines, k * np.sin(theta)))).T  # (waves, lines)
-    orbit = waves.orbit_ratio[present]
-    weights = np.stack([1j * orbit * np.cos(theta), 1j * orbit * np.sin(theta), np.ones(len(present))], axis=-1)
-    right = np.zeros((2 * len(present) + _BASE_COLUMNS, len(lines), 3), np.float32)
-    weighted = q[:, :, None] * weights[:, None, :]
-    right[:-2:2], right[1:-2:2] = weighted.real, -weighted.imag
-    right[-2, :, 0] = 1.0  # X = x_a + ...
-    right[-1, :, 1] = lines  # Y = y_b + ...
-    return _Level(first_wave, static_left.astype(np.complex64), left, right.reshape(len(right), -1))
+    def __init__(self, grid, number, waves, order, curved_earth):
+        lines = grid.lines(number)
+        self._number, self._lines, self._curved = number, lines, curved_earth
+        reach = window_reach(grid, waves.wavelength[order])
+        self.first_wave = int(np.searchsorted(reach, _nearest(grid, number), side="right"))
+        present = order[self.first_wave :]
+        self.wave_count = len(present)
+        self._reach = reach[self.first_wave :]
+        self._groups = _groups(window_levels(grid, waves.wavelength[present]))
+        self._placed = None
+
+        theta, k = waves.direction[present], waves.wavenumber[present]
+        orbit = waves.orbit_ratio[present]
+        self._wave_x = np.exp(1j * np.outer(lines, k * np.cos(theta))).astype(np.complex64)  # (lines, waves)
+        self._wave_y = np.exp(1j * np.outer(k * np.sin(theta), lines)).astype(np.complex64)  # (waves, lines)
+        self._weights = np.stack(
+            [1j * orbit * np.cos(theta), 1j * orbit * np.sin(theta), np.ones(len(present))], axis=-1
+        ).astype(np.complex64)
+        base = 4 if curved_earth else 2
+        self._static_left = np.empty_like(self._wave_x)
+        self.left = np.zeros((len(lines), 2 * len(present) + base), np.float32)
+        self.left[:, -2], self.left[:, -1] = lines, 1.0
+        self.right = np.zeros((2 * len(present) + base, 3 * len(lines)), np.float32)
+        self.right[-2, 0::3] = 1.0  # X = x_a + ...
+
+    def fill(self, phasor, anchors):
+        """Refill R where the anchors have moved, and L with the phasors of all waves, shortest first."""
+        placed = anchors.tobytes()
+        if placed != self._placed:
+            self._place(anchors)
+            self._placed = placed
+        waves_of_left = self.left.view(np.complex64)[:, : self.wave_count]
+        np.multiply(self._static_left, phasor[self.first_wave :], out=waves_of_left)
+
+    def _place(self, anchors):
+        for group in self._groups:
+            group.place(self, anchors[self._number] - anchors[group.level])
+        (x, y), centre = anchors[self._number], anchors[0]
+        self.right[-1, 0::3] = x
+        self.right[-1, 1::3] = self._lines + y
+        if self._curved:
+            drop = -0.5 / EARTH_RADIUS
+            self.left[:, -4] = (self._lines + (x - centre[0])) ** 2
+            self.right[-4, 2::3] = drop
+            self.right[-1, 2::3] = drop * (self._lines + (y - centre[1])) ** 2
+
+    def shows_whole(self, waves, shift):
+        """Whether the windows of some waves are 1 on the whole level, and thus need no refilling when it moves."""
+        return self._reach[waves].min() * FADE_START >= self._lines[-1] + abs(shift)
+
+    def window_x(self, waves, shift):
+        """Put the windows of some waves into L's static part; `shift` is this level's centre from the windows'."""
+        values = window(np.abs(self._lines + shift)[:, None], self._reach[None, waves])
+        np.multiply(self._wave_x[:, waves], values, out=self._static_left[:, waves], casting="same_kind")
+
+    def window_y(self, waves, shift):
+        """Put the windows of some waves into R."""
+        values = window(np.abs(self._lines + shift)[None, :], self._reach[waves, None]).astype(np.float32)
+        weighted = (self._wave_y[waves] * values)[:, :, None] * self._weights[waves, None, :]
+        rows = self.right[: 2 * self.wave_count].reshape(self.wave_count, 2, -1)
+        flat = weighted.reshape(len(weighted), -1)
+        rows[waves, 0], rows[waves, 1] = flat.real, -flat.imag
 
 
-def _first_wave_of_tile(grid, tile, reach):
+class _Group:
+    """Waves of a level whose windows share one centre, a slice of its sorted waves, and where they stand now."""
+
+    def __init__(self, level, waves):
+        self.level, self._waves = level, waves
+        self._shift = [None, None]
+        self._whole = [False, False]
+
+    def place(self, owner, shift):
+        """Refill the windows that change when the owner's centre is at `shift`, m, from the windows'."""
+        for axis, refill in enumerate((owner.window_x, owner.window_y)):
+            whole = owner.shows_whole(self._waves, shift[axis])
+            if self._shift[axis] != shift[axis] and not (whole and self._whole[axis]):
+                refill(self._waves, shift[axis])
+            self._shift[axis], self._whole[axis] = shift[axis], whole
+
+
+def _groups(levels_of_waves):
+    """The waves, in order, as runs of equal window level."""
+    starts = np.flatnonzero(np.diff(levels_of_waves, prepend=-1))
+    stops = np.append(starts[1:], len(levels_of_waves)) if len(starts) else starts
+    return [
+        _Group(int(levels_of_waves[start]), slice(int(start), int(stop)))
+        for start, stop in zip(starts, stops, strict=True)
+    ]
+
+
+def _nearest(grid, level):
+    """The least distance from any wave's window centre at which the level owns a vertex, m.
+
+    Centres and anchors differ by half a cell of each, less than a cell of this level where a window matters.
+    """
+    if level == 0:
+        return 0.0
+    return grid.lines(level)[3 * grid.cells // 4 + 1] - grid.spacing(level)
+
+
+def _first_wave(grid, tile, reach):
     """The shortest wave whose window is not zero everywhere on the tile."""
     distance = np.abs(grid.lines(tile.level))
     nearest = max(
         distance[tile.row_start : tile.row_stop].min(), distance[tile.column_start : tile.column_stop].min()
     )
+    nearest = max(nearest - grid.spacing(tile.level), _nearest(grid, tile.level))
     return int(np.searchsorted(reach, nearest, side="right"))

@@ -80,6 +80,16 @@ class Grid:
         return (np.arange(self.cells + 1) - self.cells // 2) * self.spacing(level)
 
 
+def level_anchors(grid: Grid, centre) -> np.ndarray:
+    """Where each level is centred to follow a point `centre` (x, y in m): its nearest own lattice point.
+
+    (levels, 2) float64. Vertices of a level always stand on the same lattice in the world, so a surface does not
+    swim under a moving plane. Neighbouring levels differ by no more than half a cell of the coarser one.
+    """
+    spacing = grid.cell_size * np.exp2(np.arange(grid.levels))[:, None]
+    return np.round(np.asarray(centre, dtype=np.float64) / spacing) * spacing
+
+
 @dataclass(frozen=True)
 class Tile:
     """A rectangle of one level's lines: rows [row_start, row_stop) of x, columns [...) of y.

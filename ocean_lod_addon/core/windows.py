@@ -24,6 +24,16 @@ def window_reach(grid: Grid, wavelength) -> np.ndarray:
     return np.asarray(wavelength) * (grid.cells / (4.0 * grid.samples_per_wavelength))
 
 
+def window_levels(grid: Grid, wavelength) -> np.ndarray:
+    """The level whose anchor is the centre of each wave's window, int, for wavelengths in m.
+
+    Windows follow a moving plane in steps of that level's spacing, at most half a cell of the mesh where the wave
+    fades: 4/cells of the width over which it does, so that no step shows.
+    """
+    finest = np.asarray(wavelength) / (2.0 * grid.samples_per_wavelength * grid.cell_size)
+    return np.clip(np.floor(np.log2(finest)), 0, grid.levels - 1).astype(int)
+
+
 def window(distance, reach) -> np.ndarray:
     """The window at a distance (>= 0, m) along one axis for a wave of this reach (m); they broadcast.
 

@@ -4,12 +4,13 @@
 import numpy as np
 import pytest
 
+from ocean_lod_addon.core.constants import EARTH_RADIUS
 from ocean_lod_addon.core.contraction import CONTRACTIONS, fastest_contraction
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.kernel import FrameKernel
-from ocean_lod_addon.core.lod import Grid, tiles
+from ocean_lod_addon.core.lod import Grid, level_anchors, tiles
 from ocean_lod_addon.core.sea import Sea, WaveSystem
-from ocean_lod_addon.core.windows import window, window_reach
+from ocean_lod_addon.core.windows import window, window_levels, window_reach
 
 GRID = Grid(cell_size=0.25, cells=64, levels=6)
 SEA = Sea(systems=(WaveSystem(wind_speed=10.0),), wave_count=96)
@@ -26,12 +27,17 @@ The undisturbed coordinate is the last term of the sum. A BLAS may sum in up to 
 and four to merge the lanes."""
 
 
-def windowed_direct_sum(grid, waves, time, x, y):
+ORIGIN = (0.0, 0.0)
+CENTRES = [ORIGIN, (3.3, -7.77), (1e5, -1e5)]
+
+
+def windowed_direct_sum(grid, waves, anchors, time, x, y):
     """Corrected Eq. 2 at undisturbed points, each wave times its window, straightforwardly, in float64."""
     reach = window_reach(grid, waves.wavelength)
-    amplitude = (
-        waves.amplitude * window(np.abs(x)[:, None], reach) * window(np.abs(y)[:, None], reach)
-    )  # (points, waves)
+    centre_x, centre_y = anchors[window_levels(grid, waves.wavelength)].T
+    window_x = window(np.abs(x[:, None] - centre_x), reach)
+    window_y = window(np.abs(y[:, None] - centre_y), reach)
+    amplitude = waves.amplitude * window_x * window_y  # (points, waves)
     cos, sin = np.cos(waves.direction), np.sin(waves.direction)
     psi = waves.wavenumber * (np.outer(x, cos) + np.outer(y, sin)) + waves.phase_at(time)
     horizontal = -waves.orbit_ratio * amplitude * np.sin(psi)
@@ -41,34 +47,89 @@ def windowed_direct_sum(grid, waves, time, x, y):
     )
 
 
-def undisturbed(grid):
+def undisturbed(grid, anchors):
     """Undisturbed coordinates of all vertices."""
     x, y = np.empty(grid.vertex_count), np.empty(grid.vertex_count)
     for tile in tiles(grid.cells, grid.levels):
-        lines = grid.lines(tile.level)
+        x_lines, y_lines = (grid.lines(tile.level) + anchor for anchor in anchors[tile.level])
         block = np.meshgrid(
-            lines[tile.row_start : tile.row_stop], lines[tile.column_start : tile.column_stop], indexing="ij"
+            x_lines[tile.row_start : tile.row_stop], y_lines[tile.column_start : tile.column_stop], indexing="ij"
         )
         x[tile.vertices], y[tile.vertices] = (part.ravel() for part in block)
     return x, y
 
 
-def assert_equal_to_direct_sum(positions, grid, waves, time):
-    x, y = undisturbed(grid)
+def evaluated(kernel, time, anchors, visible=None):
+    positions = np.full((kernel.vertex_count, 3), np.nan, np.float32)
+    kernel.evaluate(time, anchors, positions, visible)
+    return positions
+
+
+def assert_equal_to_direct_sum(positions, grid, waves, anchors, time):
+    x, y = undisturbed(grid, anchors)
     sample = np.arange(0, len(x), 7)  # all levels and tiles, in bearable time
-    expected = windowed_direct_sum(grid, waves, time, x[sample], y[sample])
+    expected = windowed_direct_sum(grid, waves, anchors, time, x[sample], y[sample])
     rounding = COORDINATE_ROUNDINGS * 0.5 * np.spacing(np.abs(expected).astype(np.float32))
     assert (np.abs(positions[sample] - expected) <= FLOAT32_ERROR + rounding).all()
 
 
+@pytest.mark.parametrize("centre", CENTRES)
 @pytest.mark.parametrize("time", TIMES)
 @pytest.mark.parametrize("contraction", CONTRACTIONS)
-def test_positions_equal_the_direct_sum(contraction, time):
+def test_positions_equal_the_direct_sum(contraction, time, centre):
+    """At the origin and 100 km out, at time 0 and after eleven days: heights are equally exact everywhere."""
     waves = discretise(SEA, GRID.shortest_wavelength)
-    kernel = FrameKernel(GRID, waves, contraction)
-    positions = np.empty((kernel.vertex_count, 3), np.float32)
-    kernel.evaluate(time, positions)
-    assert_equal_to_direct_sum(positions, GRID, waves, time)
+    anchors = level_anchors(GRID, centre)
+    positions = evaluated(FrameKernel(GRID, waves, contraction), time, anchors)
+    assert_equal_to_direct_sum(positions, GRID, waves, anchors, time)
+
+
+def test_moving_the_plane_leaves_no_trace():
+    """A kernel that has been elsewhere gives the same bits as a new one: frames can come in any order."""
+    waves = discretise(SEA, GRID.shortest_wavelength)
+    travelled = FrameKernel(GRID, waves)
+    for centre in ((0.0, 0.0), (0.3, 0.1), (5.0, 900.0), (0.55, 0.1), (-44.0, 3.0)):
+        evaluated(travelled, 1.0, level_anchors(GRID, centre))
+    anchors = level_anchors(GRID, (17.7, -3.3))
+    assert (evaluated(travelled, 2.0, anchors) == evaluated(FrameKernel(GRID, waves), 2.0, anchors)).all()
+
+
+def test_unseen_tiles_lie_flat_and_seen_ones_are_unchanged():
+    waves = discretise(SEA, GRID.shortest_wavelength)
+    kernel = FrameKernel(GRID, waves)
+    anchors = level_anchors(GRID, (12.0, 8.0))
+    plane = tiles(GRID.cells, GRID.levels)
+    visible = np.arange(len(plane)) % 3 == 0
+    whole, part = evaluated(kernel, 5.0, anchors), evaluated(kernel, 5.0, anchors, visible)
+    x, y = undisturbed(GRID, anchors)
+    for tile, seen in zip(plane, visible, strict=True):
+        flat = np.stack([x[tile.vertices], y[tile.vertices], np.zeros(tile.vertex_count)], axis=-1)
+        assert (part[tile.vertices] == (whole[tile.vertices] if seen else flat)).all()
+
+
+@pytest.mark.parametrize("centre", CENTRES)
+def test_curved_earth_drops_with_the_square_of_distance(centre):
+    """Without waves z = -d^2 / (2 R); float32 rounds each of its two terms."""
+    anchors = level_anchors(GRID, centre)
+    calm = discretise(Sea(systems=(WaveSystem(wind_speed=0.0),)), GRID.shortest_wavelength)
+    positions = evaluated(FrameKernel(GRID, calm, curved_earth=True), 0.0, anchors)
+    x, y = undisturbed(GRID, anchors)
+    drop = -((x - anchors[0, 0]) ** 2 + (y - anchors[0, 1]) ** 2) / (2 * EARTH_RADIUS)
+    assert np.abs(positions[:, 2] - drop).max() <= 2 * np.spacing(np.float32(np.abs(drop).max()))
+    waves = discretise(SEA, GRID.shortest_wavelength)
+    curved = evaluated(FrameKernel(GRID, waves, curved_earth=True), 3.0, anchors)
+    flat = evaluated(FrameKernel(GRID, waves), 3.0, anchors)
+    assert np.abs(curved[:, 2] - flat[:, 2] - drop).max() <= FLOAT32_ERROR
+
+
+def test_anchors_stay_on_their_lattice_and_close_to_their_neighbours():
+    random = np.random.default_rng(5)
+    spacing = np.array([GRID.spacing(level) for level in range(GRID.levels)])[:, None]
+    for centre in random.uniform(-1e5, 1e5, (500, 2)):
+        anchors = level_anchors(GRID, centre)
+        assert (anchors / spacing == np.round(anchors / spacing)).all()
+        assert (np.abs(anchors - centre) <= 0.5 * spacing).all()
+        assert (np.abs(np.diff(anchors, axis=0)) <= 0.5 * spacing[1:]).all()
 
 
 def test_the_surface_has_the_significant_height_it_claims():
@@ -80,10 +141,8 @@ def test_the_surface_has_the_significant_height_it_claims():
 def test_evaluation_does_not_depend_on_the_frames_before():
     waves = discretise(SEA, GRID.shortest_wavelength)
     kernel = FrameKernel(GRID, waves)
-    first, again, other = (np.empty((kernel.vertex_count, 3), np.float32) for _ in range(3))
-    kernel.evaluate(12.5, first)
-    kernel.evaluate(99.0, other)
-    kernel.evaluate(12.5, again)
+    anchors = level_anchors(GRID, ORIGIN)
+    first, other, again = (evaluated(kernel, time, anchors) for time in (12.5, 99.0, 12.5))
     assert (first == again).all()
     assert not (first == other).all()
 
@@ -91,9 +150,9 @@ def test_evaluation_does_not_depend_on_the_frames_before():
 def test_calm_sea_is_the_flat_plane():
     waves = discretise(Sea(systems=(WaveSystem(wind_speed=0.0),)), GRID.shortest_wavelength)
     kernel = FrameKernel(GRID, waves)
-    positions = np.empty((kernel.vertex_count, 3), np.float32)
-    kernel.evaluate(3.0, positions)
-    x, y = undisturbed(GRID)
+    anchors = level_anchors(GRID, ORIGIN)
+    positions = evaluated(kernel, 3.0, anchors)
+    x, y = undisturbed(GRID, anchors)
     assert (positions == np.stack([x, y, np.zeros_like(x)], axis=-1)).all()
 
 

@@ -5,19 +5,20 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.errors import OceanError
-from ocean_lod_addon.core.lod import Grid, tiles, topology
+from ocean_lod_addon.core.lod import Grid, level_anchors, tiles, topology
 
 SHAPES = [(8, 1), (8, 2), (8, 5), (64, 4), (256, 9), (512, 2)]
 
 
-def flat_positions(cells, levels, cell_size=1.0):
+def flat_positions(cells, levels, centre=(0.0, 0.0)):
     """Undisturbed vertex positions, (vertices, 2); NaN would show a vertex that no tile owns."""
-    grid = Grid(cell_size, cells, levels)
+    grid = Grid(1.0, cells, levels)
     positions = np.full((grid.vertex_count, 2), np.nan)
+    anchors = level_anchors(grid, centre)
     for tile in tiles(cells, levels):
-        lines = grid.lines(tile.level)
+        x_lines, y_lines = (grid.lines(tile.level) + anchor for anchor in anchors[tile.level])
         x, y = np.meshgrid(
-            lines[tile.row_start : tile.row_stop], lines[tile.column_start : tile.column_stop], indexing="ij"
+            x_lines[tile.row_start : tile.row_stop], y_lines[tile.column_start : tile.column_stop], indexing="ij"
         )
         positions[tile.vertices] = np.stack([x.ravel(), y.ravel()], axis=-1)
     return positions
@@ -60,22 +61,30 @@ def test_the_surface_is_one_disc(cells, levels):
     assert len(np.unique(edges)) == faces.vertex_count
 
 
-@pytest.mark.parametrize(("cells", "levels"), SHAPES)
-def test_faces_tile_the_square_once(cells, levels):
-    """All areas positive and their sum that of the square: nothing overlaps, nothing is missing or degenerate.
+def snap_offsets(levels):
+    """Centres that between them put neighbouring levels at every offset they can have, ties included."""
+    reach = 2 ** (levels - 1)
+    random = np.random.default_rng(levels)
+    return [(0.0, 0.0), (reach / 2, -reach / 2), *random.uniform(-reach, reach, (12, 2))]
 
-    Lines are multiples of powers of two, so the areas are exact in float64.
+
+@pytest.mark.parametrize(("cells", "levels"), SHAPES)
+def test_faces_tile_the_square_once_at_every_snap_offset(cells, levels):
+    """All areas positive and their sum that of the square: no gap, no overlap, nothing degenerate.
+
+    Lines are multiples of powers of two, so the areas are exact in float64 and the sum has no rounding.
     """
     faces = topology(cells, levels)
-    positions = flat_positions(cells, levels)
-    areas = np.concatenate([signed_areas(positions, faces.triangles), signed_areas(positions, faces.quads)])
-    assert areas.min() >= 0.5  # no face is smaller than half a cell of the innermost level
-    assert areas.sum() == (2 * Grid(1.0, cells, levels).half_extent) ** 2
+    for centre in snap_offsets(levels):
+        positions = flat_positions(cells, levels, centre)
+        areas = np.concatenate([signed_areas(positions, faces.triangles), signed_areas(positions, faces.quads)])
+        assert areas.min() >= 0.25  # a strip half a cell thick, cut into triangles: no sliver
+        assert areas.sum() == (2 * Grid(1.0, cells, levels).half_extent) ** 2
 
 
 @pytest.mark.parametrize(("cells", "levels"), SHAPES)
 def test_no_two_vertices_coincide(cells, levels):
-    positions = flat_positions(cells, levels)
+    positions = flat_positions(cells, levels, centre=(3.3, -1.1))
     assert not np.isnan(positions).any()
     assert len(np.unique(positions, axis=0)) == len(positions)
 
