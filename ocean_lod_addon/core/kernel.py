@@ -47,7 +47,8 @@ class FrameKernel:
         self._tiles = tiles(grid.cells, grid.levels)
         self._levels = [_Level(grid, level, waves, self._order, curved_earth) for level in range(grid.levels)]
         reach = window_reach(grid, waves.wavelength[self._order])
-        self._first_waves = [_first_wave(grid, tile, reach) for tile in self._tiles]
+        self._wave_counts = [len(waves) - _first_wave(grid, tile, reach) for tile in self._tiles]
+        self._whole_plane = _runs(self._tiles, self._wave_counts)
 
     @property
     def vertex_count(self) -> int:
@@ -74,20 +75,54 @@ class FrameKernel:
             level.fill(phasor[self._order].astype(np.complex64), anchors)
 
     def products(self, out: np.ndarray, visible=None) -> list[Product]:
-        """The matrix products of one frame, tile by tile, into `out`, (vertex_count, 3) float32."""
-        result = []
-        for number, (tile, first_wave) in enumerate(zip(self._tiles, self._first_waves, strict=True)):
-            level = self._levels[tile.level]
-            flat = visible is not None and not visible[number]
-            skipped = level.wave_count if flat else first_wave - level.first_wave
-            result.append(
-                Product(
-                    level.left[tile.row_start : tile.row_stop, 2 * skipped :],
-                    level.right[2 * skipped :, 3 * tile.column_start : 3 * tile.column_stop],
-                    out[tile.vertices].reshape(tile.rows, 3 * tile.columns),
-                )
-            )
-        return result
+        """The matrix products of one frame, into `out`, (vertex_count, 3) float32."""
+        runs = self._whole_plane
+        if visible is not None:
+            wave_counts = [count if seen else 0 for count, seen in zip(self._wave_counts, visible, strict=True)]
+            runs = _runs(self._tiles, wave_counts)
+        return [self._product(out, *run) for run in runs]
+
+    def _product(self, out, first, last, wave_count):
+        """The product of consecutive tiles with the `wave_count` longest waves."""
+        tile, end = self._tiles[first], self._tiles[last]
+        level = self._levels[tile.level]
+        inner = slice(2 * (level.wave_count - wave_count), None)
+        vertices = slice(tile.first_vertex, end.vertices.stop)
+        return Product(
+            level.left[tile.row_start : end.row_stop, inner],
+            level.right[inner, 3 * tile.column_start : 3 * tile.column_stop],
+            out[vertices].reshape(-1, 3 * tile.columns),
+        )
+
+
+_LONGEST_RUN = 512
+"""Rows of one product, at most; more do not make it faster."""
+
+_WASTE = 1 / 8
+"""Tiles share a product if that adds no more than this share to the waves of the one that needs fewer."""
+
+
+def _runs(plane, wave_counts):
+    """Neighbouring tiles grouped into products: (first tile, last tile, number of waves) of each.
+
+    Larger products run closer to the processor's speed. All tiles of a run take as many waves as the one that
+    needs most; in the others the windows of the added ones are zero.
+    """
+    runs = []
+    for number, (tile, count) in enumerate(zip(plane, wave_counts, strict=True)):
+        if runs:
+            first, last, shared = runs[-1]
+            if _continues(plane[first], plane[last], tile) and abs(count - shared) <= _WASTE * min(count, shared):
+                runs[-1] = (first, number, max(count, shared))
+                continue
+        runs.append((number, number, count))
+    return runs
+
+
+def _continues(first, last, tile):
+    """Whether a tile's rows go on where those of the run first..last end, within the longest run."""
+    same_strip = (last.level, last.column_start, last.row_stop) == (tile.level, tile.column_start, tile.row_start)
+    return same_strip and tile.row_stop - first.row_start <= _LONGEST_RUN
 
 
 class _Level:

@@ -125,9 +125,8 @@ class Tile:
         return slice(self.first_vertex, self.first_vertex + self.vertex_count)
 
 
-_TILE_LINES = 128
-"""Lines along a tile's side, about: large enough for the matrix product to run at full speed, small enough
-for tiles outside the camera's view to be worth skipping."""
+_TILE_LINES = 64
+"""Lines along a tile's side, about: small enough for tiles outside the camera's view to be worth skipping."""
 
 
 def _tile_edges(cells):
@@ -142,20 +141,36 @@ def _tile_edges(cells):
 
 @functools.lru_cache(maxsize=32)
 def tiles(cells: int, levels: int) -> tuple[Tile, ...]:
-    """The tiles of the plane in vertex order, innermost level first; together they own every vertex once."""
+    """The tiles of the plane in vertex order, innermost level first; together they own every vertex once.
+
+    Within a level, tiles that follow each other in x do so in the vertex buffer, where their rows make one
+    longer block: neighbours can be evaluated as one product.
+    """
     edges = _tile_edges(cells)
     spans = list(itertools.pairwise(edges))
     hole = range(cells // 4, 3 * cells // 4 + 1)
     result, first_vertex = [], 0
     for level in range(levels):
-        for row_start, row_stop in spans:
-            for column_start, column_stop in spans:
+        for column_start, column_stop in spans:
+            for row_start, row_stop in spans:
                 if level > 0 and row_start in hole and column_start in hole:
                     continue
                 tile = Tile(level, row_start, row_stop, column_start, column_stop, first_vertex)
                 result.append(tile)
                 first_vertex += tile.vertex_count
     return tuple(result)
+
+
+def undisturbed_positions(grid: Grid, anchors: np.ndarray) -> np.ndarray:
+    """Where the vertices stand in still water, (vertices, 2) float64, m, for level anchors (levels, 2)."""
+    plane = tiles(grid.cells, grid.levels)
+    positions = np.empty((plane[-1].vertices.stop, 2))
+    for tile in plane:
+        x, y = (grid.lines(tile.level) + anchor for anchor in anchors[tile.level])
+        block = positions[tile.vertices].reshape(tile.rows, tile.columns, 2)
+        block[..., 0] = x[tile.row_start : tile.row_stop, None]
+        block[..., 1] = y[None, tile.column_start : tile.column_stop]
+    return positions
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .camera_view import CameraView
 from .discretise import discretise
+from .framing import Framing
 from .kernel import FrameKernel
-from .lod import Grid
+from .lod import Grid, undisturbed_positions
+from .placement import Placement, place
 from .sea import Sea
 from .slope_budget import unresolved_slope_variance
 from .waves import WaveSet
@@ -20,6 +23,7 @@ class Ocean:
 
     sea: Sea = field(default_factory=Sea)
     grid: Grid = field(default_factory=Grid)
+    framing: Framing = field(default_factory=Framing)
 
     @property
     def fingerprint(self) -> str:
@@ -33,16 +37,24 @@ class Surface:
     def __init__(self, ocean: Ocean, contraction: str | None = None):
         self.ocean = ocean
         self.waves: WaveSet = discretise(ocean.sea, ocean.grid.shortest_wavelength)
-        self._kernel = FrameKernel(ocean.grid, self.waves, contraction)
+        self._kernel = FrameKernel(ocean.grid, self.waves, contraction, ocean.framing.curved_earth)
 
     @property
     def vertex_count(self) -> int:
         """Number of vertices."""
         return self._kernel.vertex_count
 
-    def positions(self, time: float, out: np.ndarray) -> None:
+    def placement(self, view: CameraView | None = None, cull: bool = False) -> Placement:
+        """Where the plane stands for a camera, and with `cull` which of its tiles move."""
+        return place(self.ocean.grid, self.ocean.framing, self.waves, view, cull)
+
+    def positions(self, time: float, placement: Placement, out: np.ndarray) -> None:
         """Write the vertices' positions at `time` (s) into `out`, (vertex_count, 3) float32, in m."""
-        self._kernel.evaluate(time, out)
+        self._kernel.evaluate(time, placement.anchors, out, placement.visible)
+
+    def undisturbed(self, anchors: np.ndarray) -> np.ndarray:
+        """The vertices' undisturbed positions for level anchors, (vertex_count, 2) float64, m."""
+        return undisturbed_positions(self.ocean.grid, anchors)
 
     def slope_variance(self) -> np.ndarray:
         """Unresolved slope variance (xx, yy, xy) of each vertex, (vertex_count, 3) float32; static in time."""

@@ -4,7 +4,7 @@
 import bpy
 from bpy.app.handlers import persistent
 
-from . import ocean_object
+from . import ocean_object, placing
 
 
 @persistent
@@ -16,11 +16,36 @@ def update_oceans(scene, depsgraph=None):
         ocean_object.update_reporting(ob, scene, depsgraph)
 
 
+@persistent
+def begin_frame(scene, *_):
+    """Called by Blender before a frame is rendered: its sub-frames belong to it."""
+    placing.begin_rendered_frame(scene)
+
+
+@persistent
+def end_frame(scene, *_):
+    """Called by Blender after a frame was rendered, and when rendering ends in any way."""
+    placing.end_rendered_frame(scene)
+
+
+def _subscriptions():
+    handlers = bpy.app.handlers
+    return (
+        (handlers.frame_change_post, update_oceans),
+        (handlers.render_pre, begin_frame),
+        (handlers.render_post, end_frame),
+        (handlers.render_complete, end_frame),
+        (handlers.render_cancel, end_frame),
+    )
+
+
 def register():
-    """Start listening to frame changes."""
-    bpy.app.handlers.frame_change_post.append(update_oceans)
+    """Start listening."""
+    for event, handler in _subscriptions():
+        event.append(handler)
 
 
 def unregister():
-    """Stop listening to frame changes."""
-    bpy.app.handlers.frame_change_post.remove(update_oceans)
+    """Stop listening."""
+    for event, handler in reversed(_subscriptions()):
+        event.remove(handler)

@@ -20,10 +20,12 @@ from ..core.ocean import Ocean, Surface
 from ..core.ocean_time import sea_time
 from ..core.sea import Sea
 from ..nodes.material import MATERIAL_KEY, ensure_material, find_material
-from . import clock, properties
+from . import clock, placing, properties
 from . import mesh as mesh_arrays
 
 _MODIFIER_NAME = "Ocean LOD"
+
+_TRANSFORM_TOLERANCE = 1e-4
 
 _problems: dict[int, str] = {}
 """What keeps an ocean from moving, by the object's session id; for the panel, and to report it only once."""
@@ -47,6 +49,7 @@ def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"
     """A new ocean object in the active collection, at its surface of the current frame. Raises OceanError."""
     ob = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     try:
+        ob.scale = (metres_to_units(scene),) * 3
         ob.ocean_lod.is_ocean = True
         properties.write_sea(sea, ob.ocean_lod)
         properties.write_grid(grid, ob.ocean_lod)
@@ -98,7 +101,11 @@ def update(ob, scene, depsgraph) -> None:
     Settings are read from the evaluated object: during a render, animation reaches only that one.
     """
     evaluated = ob.evaluated_get(depsgraph)
-    _write_surface(ob, read_ocean(evaluated, scene), scene_sea_time(evaluated, scene))
+    _check_transform(evaluated, scene)
+    surface = _surface(read_ocean(evaluated, scene))
+    placement = placing.placement_of_frame(ob, surface, scene, depsgraph)
+    if placement.sees_water:
+        _write_surface(ob, surface, placement, scene_sea_time(evaluated, scene))
 
 
 def update_reporting(ob, scene, depsgraph) -> None:
@@ -145,12 +152,31 @@ def _rebuild_and_move(ob, scene):
     ocean = read_ocean(ob, scene)
     if not mesh_arrays.has_geometry_for(ob.data, ocean.grid.vertex_count):
         mesh_arrays.build_topology(ob.data, ocean.grid)
-    _write_surface(ob, ocean, scene_sea_time(ob, scene))
-
-
-def _write_surface(ob, ocean, time):
-    mesh = ob.data
     surface = _surface(ocean)
+    placement = surface.placement(placing.camera_view(ob, scene))
+    _write_surface(ob, surface, placement, scene_sea_time(ob, scene))
+
+
+def metres_to_units(scene) -> float:
+    """How many of the scene's units a metre is; an ocean's mesh is in metres and its object scaled by this."""
+    return 1.0 / scene.unit_settings.scale_length
+
+
+def _check_transform(ob, scene):
+    """Refuse what no sea does: be tilted or scaled. It can be moved anywhere and turned about z."""
+    expected = metres_to_units(scene)
+    scale = ob.matrix_world.to_scale()
+    if max(abs(factor / expected - 1.0) for factor in scale) > _TRANSFORM_TOLERANCE:
+        raise OceanError(
+            f"the object's scale is {', '.join(f'{factor:g}' for factor in scale)}, allowed is {expected:g} in a "
+            f"scene with unit scale {1.0 / expected:g}: change the sea state or the cell size instead"
+        )
+    if ob.matrix_world.to_3x3().normalized()[2][2] < 1.0 - _TRANSFORM_TOLERANCE:
+        raise OceanError("the object is tilted, allowed is a rotation about z")
+
+
+def _write_surface(ob, surface, placement, time):
+    mesh, ocean = ob.data, surface.ocean
     if not mesh_arrays.has_geometry_for(mesh, surface.vertex_count):
         raise OceanError(
             f"the mesh has {len(mesh.vertices)} vertices, its settings make {surface.vertex_count}; "
@@ -161,7 +187,7 @@ def _write_surface(ob, ocean, time):
         mesh_arrays.set_static_fingerprint(mesh, ocean.fingerprint)
     with _evaluation:
         positions = _buffer(surface.vertex_count)
-        surface.positions(time, positions)
+        surface.positions(time, placement, positions)
         mesh_arrays.write_positions(mesh, positions)
 
 

@@ -6,10 +6,12 @@ import dataclasses
 
 import bpy
 
+from ..core.framing import Framing
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
 from ..core.ocean import Ocean
 from ..core.ocean_time import OceanTime, loop_period
+from ..core.parameters import parameters_of
 from ..core.sea import Sea, WaveSystem
 from . import rna
 
@@ -45,8 +47,6 @@ def _material_changed(group, context):
         _changes.material(group.id_data, context.scene)
 
 
-_GRID_FIELDS = ("cell_size", "cells", "levels", "samples_per_wavelength")
-
 WaveSystemProperties = rna.property_group(
     "OCEAN_LOD_WaveSystemProperties", rna.annotations(WaveSystem, _surface_changed)
 )
@@ -63,7 +63,11 @@ SeaProperties = rna.property_group(
     },
 )
 GridProperties = rna.property_group(
-    "OCEAN_LOD_GridProperties", rna.annotations(Grid, _surface_changed, not_animatable=_GRID_FIELDS)
+    "OCEAN_LOD_GridProperties", rna.annotations(Grid, _surface_changed, not_animatable=parameters_of(Grid))
+)
+FramingProperties = rna.property_group(
+    "OCEAN_LOD_FramingProperties",
+    rna.annotations(Framing, _surface_changed, not_animatable=parameters_of(Framing)),
 )
 TimeProperties = rna.property_group("OCEAN_LOD_TimeProperties", rna.annotations(OceanTime, _surface_changed))
 MaterialProperties = rna.property_group(
@@ -77,6 +81,7 @@ OceanProperties = rna.property_group(
         ),
         "sea": bpy.props.PointerProperty(type=SeaProperties),
         "grid": bpy.props.PointerProperty(type=GridProperties),
+        "framing": bpy.props.PointerProperty(type=FramingProperties),
         "time": bpy.props.PointerProperty(type=TimeProperties),
         "material": bpy.props.PointerProperty(type=MaterialProperties),
     },
@@ -86,6 +91,7 @@ _CLASSES = (
     WaveSystemProperties,
     SeaProperties,
     GridProperties,
+    FramingProperties,
     TimeProperties,
     MaterialProperties,
     OceanProperties,
@@ -106,7 +112,7 @@ def read_ocean(properties, frames_per_second: float) -> Ocean:
     sea = dataclasses.replace(
         read_sea(properties), loop_period=loop_period(read_time(properties), frames_per_second)
     )
-    return Ocean(sea, rna.read(Grid, properties.grid))
+    return Ocean(sea, rna.read(Grid, properties.grid), rna.read(Framing, properties.framing))
 
 
 def read_time(properties) -> OceanTime:

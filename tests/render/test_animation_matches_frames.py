@@ -80,7 +80,8 @@ def expected_heights(ob, frame, fps):
     """Height of the surface of `frame` at x, y: interpolated between its vertices, computed without Blender."""
     surface = ocean_object.Surface(ocean_object.read_ocean(ob, bpy.context.scene))
     positions = np.empty((surface.vertex_count, 3), np.float32)
-    surface.positions(ocean_time.sea_time(ocean_time.OceanTime(), frame, fps), positions)
+    time = ocean_time.sea_time(ocean_time.OceanTime(), frame, fps)
+    surface.positions(time, surface.placement(), positions)
     return LinearNDInterpolator(positions[:, :2], positions[:, 2])
 
 

@@ -22,9 +22,9 @@ def assert_surface_is_of_time(ob, time):
     """The vertices equal the kernel at `time`, to the rounding of float32 phases' arguments (0.1 mm)."""
     surface = Surface(ocean_object.read_ocean(ob, bpy.context.scene))
     expected = np.empty((surface.vertex_count, 3), np.float32)
-    surface.positions(time, expected)
+    surface.positions(time, surface.placement(), expected)
     assert np.abs(mesh.read_positions(ob.data) - expected).max() < 1e-4
-    surface.positions(time + 0.5, expected)
+    surface.positions(time + 0.5, surface.placement(), expected)
     assert np.abs(mesh.read_positions(ob.data) - expected).max() > 1e-2, "half a second would show"
 
 

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a camera sees of the sea: where the water nearest to it is, and which tiles are in its frame.
+
+All coordinates are the ocean's own: metres, z up, the mean water level at z = 0.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .lod import Grid, tiles
+
+
+@dataclass(frozen=True, eq=False)
+class CameraView:
+    """A camera for one frame.
+
+    position   (3,) m
+    axes       (3, 3): rows are the camera's right, up and forward directions, unit vectors
+    extent     (left, right, bottom, top) of the frame: tangents of angles from the forward axis, or for an
+               orthographic camera metres from it
+    kind       "PERSP", "ORTHO" or "PANO"; a panoramic camera sees in all directions
+    """
+
+    position: np.ndarray
+    axes: np.ndarray
+    extent: tuple[float, float, float, float]
+    kind: str = "PERSP"
+
+
+def frame_planes(view: CameraView, margin: float = 0.0) -> np.ndarray:
+    """The planes that bound what a camera sees, (planes, 4): n . x + d >= 0 inside, n a unit vector.
+
+    `margin` in rad widens a perspective frame on each side, up to a half space; an orthographic frame grows by
+    tan(margin) of its own size. A panoramic camera has no planes.
+    """
+    right, up, forward = view.axes
+    left_edge, right_edge, bottom_edge, top_edge = view.extent
+    if view.kind == "PANO":
+        return np.empty((0, 4))
+    if view.kind == "ORTHO":
+        grown = 0.5 * np.tan(min(margin, _WIDEST_HALF_ANGLE))
+        extra_x, extra_y = grown * (right_edge - left_edge), grown * (top_edge - bottom_edge)
+        sides = [(right, left_edge - extra_x), (-right, -right_edge - extra_x)]
+        sides += [(up, bottom_edge - extra_y), (-up, -top_edge - extra_y)]
+        return np.array([[*n, -n @ view.position - offset] for n, offset in sides])
+    angles = np.minimum(np.arctan([-left_edge, right_edge, -bottom_edge, top_edge]) + margin, np.pi / 2)
+    inwards = [right, -right, up, -up]
+    normals = [np.cos(a) * n + np.sin(a) * forward for a, n in zip(angles, inwards, strict=True)]
+    normals.append(forward)  # nothing behind the camera: boxes that straddle its axis there pass the other four
+    return np.array([[*n, -n @ view.position] for n in normals])
+
+
+_WIDEST_HALF_ANGLE = 1.5
+"""rad; tan() of a margin beyond this is as good as infinite."""
+
+
+def visible_tiles(
+    grid: Grid,
+    anchors: np.ndarray,
+    planes: np.ndarray,
+    highest: float,
+    reach: float,
+    curved_radius: float = np.inf,
+) -> np.ndarray:
+    """Which tiles can be seen, a bool for each: boxes around them that are not wholly outside some plane.
+
+    `highest` bounds the waves' heights above and below the mean level and `reach` their horizontal displacement,
+    in m. With a finite `curved_radius` (m) the sea sinks with distance.
+    """
+    boxes = np.array([_box(grid, anchors, tile) for tile in tiles(grid.cells, grid.levels)])
+    low, high = boxes[:, 0] - reach, boxes[:, 1] + reach  # (tiles, 2)
+    furthest = np.maximum(np.abs(low - anchors[0]), np.abs(high - anchors[0]))
+    drop = (furthest**2).sum(axis=1) / (2.0 * curved_radius)
+    bottom, top = -highest - drop, np.full(len(boxes), highest)
+    seen = np.ones(len(boxes), bool)
+    for nx, ny, nz, offset in planes:
+        corner = (
+            np.maximum(nx * low[:, 0], nx * high[:, 0])
+            + np.maximum(ny * low[:, 1], ny * high[:, 1])
+            + np.maximum(nz * bottom, nz * top)
+        )
+        seen &= corner + offset >= 0.0
+    return seen
+
+
+def _box(grid, anchors, tile):
+    """Undisturbed (low, high) corner of a tile with the cells that join it to its neighbours, (2, 2), m."""
+    lines, cell = grid.lines(tile.level), 1.5 * grid.spacing(tile.level)
+    low = np.array([lines[tile.row_start], lines[tile.column_start]]) - cell
+    high = np.array([lines[tile.row_stop - 1], lines[tile.column_stop - 1]]) + cell
+    return low + anchors[tile.level], high + anchors[tile.level]
+
+
+def nearest_visible_water(view: CameraView) -> np.ndarray:
+    """The point (x, y) of the mean water level, among what the camera sees, that is nearest to below the camera.
+
+    Below the camera itself if that is in the frame, if the camera is under water or if it sees no water at all.
+    """
+    below = view.position[:2].astype(np.float64)
+    height = view.position[2]
+    planes = frame_planes(view)
+    ground = np.array([*below, 0.0, 1.0])
+    if height <= 0.0 or (planes @ ground >= 0.0).all():
+        return below
+    origins, directions = _frame_rays(view)
+    sinking = directions[:, 2] < -_GRAZING
+    if not sinking.any():
+        return below
+    origins, directions = origins[sinking], directions[sinking]
+    hits = origins[:, :2] - origins[:, 2:] / directions[:, 2:] * directions[:, :2]
+    return hits[np.argmin(((hits - below) ** 2).sum(axis=1))]
+
+
+_GRAZING = 1e-6
+"""Rays that sink less than this never reach the water."""
+
+_RAYS_PER_EDGE = 9
+
+
+def _frame_rays(view):
+    """Rays along the border of the frame: origins and directions, (rays, 3) each."""
+    left, right, bottom, top = view.extent
+    u, v = np.linspace(0.0, 1.0, _RAYS_PER_EDGE), np.ones(_RAYS_PER_EDGE)
+    x = left + (right - left) * np.concatenate([u, u, 0 * v, v])
+    y = bottom + (top - bottom) * np.concatenate([0 * v, v, u, u])
+    across = x[:, None] * view.axes[0] + y[:, None] * view.axes[1]
+    forward = np.broadcast_to(view.axes[2], across.shape)
+    if view.kind == "ORTHO":
+        return view.position + across, forward
+    return np.broadcast_to(view.position, across.shape), forward + across
+
+
+def plane_centre(grid: Grid, view: CameraView) -> np.ndarray:
+    """Where to centre the plane's levels for a camera, (x, y) in m.
+
+    Below the camera, but moved ahead when the nearest water in frame lies beyond the finest level, as with a long
+    lens: the fine cells are then where they are seen.
+    """
+    below = view.position[:2].astype(np.float64)
+    ahead = nearest_visible_water(view) - below
+    distance = np.hypot(*ahead)
+    finest_level = 0.5 * grid.spacing(0) * grid.cells / 2
+    if distance <= finest_level:
+        return below
+    return below + ahead * (1.0 - finest_level / distance)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the plane stands in one frame and which of its tiles move."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .camera_view import CameraView, frame_planes, plane_centre, visible_tiles
+from .constants import EARTH_RADIUS
+from .framing import Framing
+from .lod import Grid, level_anchors
+from .waves import WaveSet
+
+_HIGHEST_WAVE = 1.25
+"""Bound on a crest over the significant height. In a Gaussian sea exp(-8 r^2), four in a million, exceed it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """`anchors` (levels, 2) m; `visible` a bool for each tile, or None where every tile moves."""
+
+    anchors: np.ndarray
+    visible: np.ndarray | None = None
+
+    @property
+    def sees_water(self) -> bool:
+        """Whether any part of the plane is worth moving."""
+        return self.visible is None or bool(self.visible.any())
+
+
+def place(grid: Grid, framing: Framing, waves: WaveSet, view: CameraView | None, cull: bool) -> Placement:
+    """The placement of a plane for a camera (None if the scene has none); a function of its arguments alone.
+
+    With `cull`, tiles outside the frame and its margin stay flat, if the settings ask for it.
+    """
+    centre = plane_centre(grid, view) if view is not None and framing.centre == "CAMERA" else (0.0, 0.0)
+    anchors = level_anchors(grid, centre)
+    if view is None or not (cull and framing.only_in_view):
+        return Placement(anchors)
+    highest = _HIGHEST_WAVE * 4.0 * float(np.sqrt(0.5 * np.sum(waves.amplitude**2)))
+    reach = highest * float(waves.orbit_ratio.max(initial=0.0))
+    radius = EARTH_RADIUS if framing.curved_earth else np.inf
+    planes = frame_planes(view, framing.view_margin)
+    return Placement(anchors, visible_tiles(grid, anchors, planes, highest, reach, radius))

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where an ocean's plane stands in a frame: the same for all instants of the frame's shutter interval.
+
+A plane that moved its lattice while the shutter is open would smear. So the placement belongs to the frame being
+rendered: it is taken from the camera at the frame itself, which Blender evaluates first, and kept for the
+sub-frames that the motion blur of this frame asks for. Nothing is kept from one frame to the next.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..core.camera_view import CameraView
+from ..core.ocean import Surface
+from ..core.placement import Placement
+from . import clock
+
+
+@dataclass(frozen=True)
+class _Placed:
+    """The placement of an ocean at a frame."""
+
+    frame: float
+    surface: Surface
+    placement: Placement
+
+
+_rendered_frames: dict[str, float] = {}
+"""The frame being rendered, by scene name; empty while nothing renders."""
+
+_placed: dict[int, _Placed] = {}
+"""By the ocean object's session id."""
+
+
+def begin_rendered_frame(scene) -> None:
+    """From now on all frames that Blender evaluates for a scene are instants of its current one."""
+    _rendered_frames[scene.name] = clock.current_frame(scene)
+
+
+def end_rendered_frame(scene) -> None:
+    """The frame is done."""
+    _rendered_frames.pop(scene.name, None)
+
+
+def placement_of_frame(ob, surface: Surface, scene, depsgraph) -> Placement:
+    """The placement of an ocean in the frame being evaluated."""
+    now = clock.current_frame(scene)
+    frame = _rendered_frames.get(scene.name, now)
+    kept = _placed.get(ob.session_uid)
+    if now != frame and kept is not None and kept.frame == frame and kept.surface is surface:
+        return kept.placement
+    view = camera_view(ob.evaluated_get(depsgraph), scene, depsgraph)
+    placement = surface.placement(view, cull=depsgraph.mode == "RENDER")
+    _placed[ob.session_uid] = _Placed(frame, surface, placement)
+    return placement
+
+
+def camera_view(ob, scene, depsgraph=None) -> CameraView | None:
+    """The scene's camera in an ocean's own coordinates, or None without a camera."""
+    camera = scene.camera
+    if camera is None or camera.type != "CAMERA":
+        return None
+    if depsgraph is not None:
+        camera = camera.evaluated_get(depsgraph)
+    matrix = np.array(ob.matrix_world.inverted() @ camera.matrix_world.normalized())
+    corners = np.array([corner[:] for corner in camera.data.view_frame(scene=scene)])
+    if camera.data.type == "PERSP":
+        corners = corners / -corners[:, 2:]
+    else:
+        corners = corners * scene.unit_settings.scale_length
+    extent = (corners[:, 0].min(), corners[:, 0].max(), corners[:, 1].min(), corners[:, 1].max())
+    axes = np.stack([matrix[:3, 0], matrix[:3, 1], -matrix[:3, 2]])
+    return CameraView(matrix[:3, 3], axes, tuple(map(float, extent)), camera.data.type)

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a camera sees of the sea, for every kind of camera and place."""
+
+import math
+
+import numpy as np
+import pytest
+
+from ocean_lod_addon.core.camera_view import (
+    CameraView,
+    frame_planes,
+    nearest_visible_water,
+    plane_centre,
+    visible_tiles,
+)
+from ocean_lod_addon.core.discretise import discretise
+from ocean_lod_addon.core.framing import Framing
+from ocean_lod_addon.core.lod import Grid, level_anchors, tiles
+from ocean_lod_addon.core.placement import place
+from ocean_lod_addon.core.sea import Sea
+
+GRID = Grid(cell_size=0.1, cells=128, levels=9)
+
+
+def camera(height=1.7, pitch=0.0, heading=0.0, lens=35.0, aspect=16 / 9, kind="PERSP", at=(0.0, 0.0)):
+    """A level camera, `pitch` rad below the horizon, 36 mm wide sensor; an orthographic one is `lens` m wide."""
+    cos, sin = math.cos(pitch), math.sin(pitch)
+    forward = np.array([cos * math.cos(heading), cos * math.sin(heading), -sin])
+    right = np.array([math.sin(heading), -math.cos(heading), 0.0])
+    half = 18.0 / lens if kind == "PERSP" else 0.5 * lens
+    return CameraView(
+        np.array([*at, height]),
+        np.stack([right, np.cross(right, forward), forward]),
+        (-half, half, -half / aspect, half / aspect),
+        kind,
+    )
+
+
+def seen(view, margin=0.0, grid=GRID):
+    anchors = level_anchors(grid, plane_centre(grid, view))
+    return visible_tiles(grid, anchors, frame_planes(view, margin), highest=2.0, reach=2.0), anchors
+
+
+def projected_inside(view, points):
+    """Whether points are in frame, by projecting them: independent of the planes."""
+    x, y, depth = view.axes @ (points - view.position).T
+    left, right, bottom, top = view.extent
+    scale = depth if view.kind == "PERSP" else 1.0
+    inside = (x >= left * scale) & (x <= right * scale) & (y >= bottom * scale) & (y <= top * scale)
+    return inside & (depth > 0) if view.kind == "PERSP" else inside
+
+
+VIEWS = {
+    "standing": camera(),
+    "looking down from 10 km": camera(10e3, pitch=math.pi / 2 - 1e-9),
+    "8 mm": camera(3.0, pitch=0.2, lens=8.0),
+    "1200 mm": camera(10.0, pitch=0.01, lens=1200.0),
+    "under water": camera(-3.0, pitch=-0.3),
+    "inside a wave": camera(0.3, pitch=0.0, heading=2.0),
+    "orthographic": camera(50.0, pitch=0.6, lens=40.0, kind="ORTHO", at=(70.0, -30.0)),
+    "far away": camera(5.0, pitch=0.05, heading=1.0, at=(1e5, -1e5)),
+}
+
+
+def widened(view, margin):
+    """The camera with `margin` rad more on each side of its frame."""
+    return CameraView(view.position, view.axes, tuple(np.tan(np.arctan(view.extent) + _SIDES * margin)), view.kind)
+
+
+_SIDES = np.array([-1, 1, -1, 1])
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.2])
+@pytest.mark.parametrize("name", VIEWS)
+def test_no_visible_water_is_left_out(name, margin):
+    """Every vertex of the sea, anywhere between its highest and lowest, that projects into the frame widened by
+    the margin is in a tile that counts as visible."""
+    view = VIEWS[name]
+    visible, anchors = seen(view, margin)
+    view = view if view.kind == "ORTHO" else widened(view, margin)
+    for tile, is_seen in zip(tiles(GRID.cells, GRID.levels), visible, strict=True):
+        if is_seen:
+            continue
+        lines = GRID.lines(tile.level)
+        x, y, z = np.meshgrid(
+            lines[tile.row_start : tile.row_stop : 8] + anchors[tile.level, 0],
+            lines[tile.column_start : tile.column_stop : 8] + anchors[tile.level, 1],
+            [-2.0, 0.0, 2.0],
+        )
+        points = np.stack([x.ravel(), y.ravel(), z.ravel()], axis=-1)
+        assert not projected_inside(view, points).any()
+
+
+def test_most_of_the_plane_is_out_of_frame_for_a_normal_lens():
+    """35 mm at eye height sees 54 degrees of 360; tiles and margin make it a third of the vertices at most."""
+    grid = Grid(cell_size=0.05, cells=512, levels=9)
+    visible, _ = seen(VIEWS["standing"], Framing().view_margin, grid)
+    counts = np.array([tile.vertex_count for tile in tiles(grid.cells, grid.levels)])
+    assert counts[visible].sum() < counts.sum() / 3
+
+
+def test_a_camera_that_looks_up_sees_no_water():
+    visible, _ = seen(camera(height=30.0, pitch=-1.0))
+    assert not visible.any()
+
+
+def test_panoramic_cameras_see_everything():
+    visible, _ = seen(camera(kind="PANO"))
+    assert visible.all()
+
+
+def test_nearest_water_ahead_of_a_level_camera():
+    """The lowest ray of a frame with half height t sinks t per unit: it meets the water height / t ahead."""
+    view = camera(height=2.0)
+    assert nearest_visible_water(view) == pytest.approx([2.0 / (18.0 / 35.0 / (16 / 9)), 0.0], rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["looking down from 10 km", "under water"])
+def test_plane_is_centred_below_a_camera_that_sees_below_itself_or_none(name):
+    assert plane_centre(GRID, VIEWS[name]) == pytest.approx(VIEWS[name].position[:2])
+
+
+def test_a_long_lens_has_its_fine_cells_where_it_looks():
+    view = VIEWS["1200 mm"]
+    nearest = nearest_visible_water(view)
+    assert nearest[0] > 300.0
+    assert np.abs(plane_centre(GRID, view) - nearest).max() <= GRID.spacing(0) * GRID.cells / 4
+
+
+def test_placement_culls_only_when_asked_and_allowed():
+    waves = discretise(Sea(), GRID.shortest_wavelength)
+    view = VIEWS["standing"]
+    assert place(GRID, Framing(), waves, view, cull=False).visible is None
+    assert place(GRID, Framing(only_in_view=False), waves, view, cull=True).visible is None
+    assert place(GRID, Framing(), waves, None, cull=True).visible is None
+    assert not place(GRID, Framing(), waves, view, cull=True).visible.all()
+    assert not place(GRID, Framing(), waves, camera(30.0, pitch=-1.4), cull=True).sees_water
+    assert (place(GRID, Framing(centre="PINNED"), waves, VIEWS["far away"], cull=False).anchors == 0.0).all()
