@@ -8,7 +8,7 @@ below, and where the surface mirrors the eye downwards the water shows, too. Hen
 
 from .graph import Graph
 from .groups import GroupRecipe
-from .sockets import BSDF, REFLECTED_SHARE, WATER_COLOR
+from .sockets import BSDF, NORMAL, REFLECTED_SHARE, WATER_COLOR
 
 
 def _build(graph: Graph):
@@ -16,10 +16,11 @@ def _build(graph: Graph):
     with graph.section("Transmitted light"):
         transmitted = graph.label(1.0 - graph.input(REFLECTED_SHARE.name), "transmitted share")
         color = graph.input(WATER_COLOR.name) * transmitted
-        closure = graph.node("ShaderNodeBsdfDiffuse", "Upwelling light", {"Color": color})
+        inputs = {"Color": color, "Normal": graph.input(NORMAL.name)}
+        closure = graph.node("ShaderNodeBsdfDiffuse", "Upwelling light", inputs)
     graph.output(BSDF.name, graph.output_of(closure))
 
 
 WATER_BODY = GroupRecipe(
-    "Ocean LOD Water Body", "2", inputs=(WATER_COLOR, REFLECTED_SHARE), outputs=(BSDF,), build=_build
+    "Ocean LOD Water Body", "3", inputs=(WATER_COLOR, REFLECTED_SHARE, NORMAL), outputs=(BSDF,), build=_build
 )

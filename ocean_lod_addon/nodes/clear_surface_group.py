@@ -12,7 +12,7 @@ from ..core.constants import WATER_REFRACTIVE_INDEX
 from ..core.optics import beckmann
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe, Socket
-from .sockets import BSDF, MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE
+from .sockets import BSDF, MAJOR_VARIANCE, MINOR_VARIANCE, NORMAL, REFLECTED_SHARE
 
 RADIANCE_OUT_OF_WATER = 1.0 / WATER_REFRACTIVE_INDEX**2
 """Light that leaves the water spreads over a wider cone and loses radiance by 1/n^2; Cycles leaves that out."""
@@ -27,7 +27,7 @@ def _build(graph: Graph):
         major, minor = graph.input(MAJOR_VARIANCE.name), graph.input(MINOR_VARIANCE.name)
         roughness = beckmann.glossy_sockets(ops, major, minor).roughness
         transmitted = graph.label(1.0 - graph.input(REFLECTED_SHARE.name), "transmitted share")
-    shape = {"Roughness": roughness, "IOR": WATER_REFRACTIVE_INDEX}
+    shape = {"Roughness": roughness, "IOR": WATER_REFRACTIVE_INDEX, "Normal": graph.input(NORMAL.name)}
     with graph.section("From above"):
         leaving = graph.label(transmitted * RADIANCE_OUT_OF_WATER, "radiance out of water")
         refraction = graph.node(
@@ -53,8 +53,8 @@ def _build(graph: Graph):
 
 CLEAR_SURFACE = GroupRecipe(
     "Ocean LOD Clear Surface",
-    "2",
-    inputs=(REFLECTION_FROM_ABOVE, MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE),
+    "3",
+    inputs=(REFLECTION_FROM_ABOVE, MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE, NORMAL),
     outputs=(BSDF,),
     build=_build,
 )

@@ -39,7 +39,7 @@ def _cycles_surface(graph: Graph, parts: Surface) -> Shader:
     closure, sun = cycles_reflection(graph, parts)
     above = graph.add_shaders(closure, sun)
     variances = {socket.name: parts.slopes[socket.name] for socket in (MAJOR_VARIANCE, MINOR_VARIANCE)}
-    inputs = {REFLECTION_FROM_ABOVE.name: above, **variances, **parts.reflected_share}
+    inputs = {REFLECTION_FROM_ABOVE.name: above, **variances, **parts.reflected_share, **parts.normal}
     return use_group(graph, CLEAR_SURFACE, inputs)[BSDF.name]
 
 
@@ -74,7 +74,7 @@ def _eevee_refraction(graph: Graph, parts: Surface, transmittance: Color) -> Sha
     roughness = beckmann.glossy_sockets(ops, *variances).roughness
     transmitted = graph.label(1.0 - parts.reflected_share[REFLECTED_SHARE.name], "transmitted share")
     leaving = transmittance * (transmitted * RADIANCE_OUT_OF_WATER)
-    inputs = {"Color": leaving, "Roughness": roughness, "IOR": WATER_REFRACTIVE_INDEX}
+    inputs = {"Color": leaving, "Roughness": roughness, "IOR": WATER_REFRACTIVE_INDEX, **parts.normal}
     return graph.output_of(graph.node("ShaderNodeBsdfRefraction", "Bottom", inputs, distribution="GGX"))
 
 
@@ -101,7 +101,7 @@ def _build(graph: Graph):
 
 CLEAR_WATER = GroupRecipe(
     "Ocean LOD Clear Water",
-    "2",
+    "3",
     inputs=(*WATER_SOCKETS, ABSORPTION, BACKSCATTERING, EEVEE_DEPTH),
     outputs=(CYCLES, EEVEE, VOLUME),
     build=_build,

@@ -10,7 +10,7 @@ from ..core.optics.reflected_share import reflected_share
 from ..core.optics.smith import slope_spread
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe
-from .sockets import MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE, TANGENT
+from .sockets import MAJOR_VARIANCE, MINOR_VARIANCE, NORMAL, REFLECTED_SHARE, TANGENT
 from .surface_frame import SurfaceFrame
 
 
@@ -18,7 +18,7 @@ def _build(graph: Graph):
     """The direction to the viewer in the surface's axes, the slope deviation along it, the fit."""
     ops = GraphOps(graph)
     with graph.section("View direction"):
-        x, y, z = SurfaceFrame(graph, graph.input(TANGENT.name)).view()
+        x, y, z = SurfaceFrame(graph, graph.input(TANGENT.name), graph.input(NORMAL.name)).view()
         cos_view = graph.label(ops.minimum(ops.maximum(z, 0.0), 1.0), "cos of view angle")
     with graph.section("Slope spread along the view"):
         major, minor = graph.input(MAJOR_VARIANCE.name), graph.input(MINOR_VARIANCE.name)
@@ -30,8 +30,8 @@ def _build(graph: Graph):
 
 REFLECTED_SHARE_OF_SLOPES = GroupRecipe(
     "Ocean LOD Reflected Share",
-    "1",
-    inputs=(MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT),
+    "2",
+    inputs=(MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT, NORMAL),
     outputs=(REFLECTED_SHARE,),
     build=_build,
 )

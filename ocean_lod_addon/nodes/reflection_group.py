@@ -13,7 +13,7 @@ from ..core.constants import WATER_REFRACTIVE_INDEX
 from ..core.optics import beckmann, fresnel
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe
-from .sockets import BSDF, MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT
+from .sockets import BSDF, MAJOR_VARIANCE, MINOR_VARIANCE, NORMAL, TANGENT
 
 HAS_EXACT_FRESNEL = bpy.app.version >= (5, 0, 0)
 """Whether the Metallic closure of this Blender computes the Fresnel reflectance of water exactly."""
@@ -37,7 +37,7 @@ def _build(graph: Graph):
     with graph.section("Ross BRDF"):
         sockets, fresnel_type = _fresnel_settings()
         sockets |= {"Roughness": shape.roughness, "Anisotropy": shape.anisotropy}
-        sockets |= {"Tangent": graph.input(TANGENT.name)}
+        sockets |= {name: graph.input(name) for name in (NORMAL.name, TANGENT.name)}
         closure = graph.node(
             "ShaderNodeBsdfMetallic",
             "Water surface",
@@ -50,8 +50,8 @@ def _build(graph: Graph):
 
 REFLECTION = GroupRecipe(
     "Ocean LOD Reflection",
-    "1 exact" if HAS_EXACT_FRESNEL else "1 schlick",
-    inputs=(MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT),
+    "2 exact" if HAS_EXACT_FRESNEL else "2 schlick",
+    inputs=(MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT, NORMAL),
     outputs=(BSDF,),
     build=_build,
 )

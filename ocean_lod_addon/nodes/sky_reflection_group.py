@@ -10,7 +10,7 @@ color: EEVEE takes a dark color for a dark Fresnel reflectance and then leaves o
 from ..core.optics import beckmann
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe
-from .sockets import BSDF, MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE
+from .sockets import BSDF, MAJOR_VARIANCE, MINOR_VARIANCE, NORMAL, REFLECTED_SHARE
 
 
 def _build(graph: Graph):
@@ -20,7 +20,7 @@ def _build(graph: Graph):
         major, minor = graph.input(MAJOR_VARIANCE.name), graph.input(MINOR_VARIANCE.name)
         roughness = beckmann.glossy_sockets(ops, major, minor).roughness
     with graph.section("Reflection"):
-        white = {"Color": (1.0, 1.0, 1.0, 1.0), "Roughness": roughness}
+        white = {"Color": (1.0, 1.0, 1.0, 1.0), "Roughness": roughness, "Normal": graph.input(NORMAL.name)}
         closure = graph.node("ShaderNodeBsdfGlossy", "Sky", white, distribution="MULTI_GGX")
         share = {0: graph.input(REFLECTED_SHARE.name), 2: graph.output_of(closure)}
         reflected = graph.node("ShaderNodeMixShader", "Reflected share", share)
@@ -29,8 +29,8 @@ def _build(graph: Graph):
 
 SKY_REFLECTION = GroupRecipe(
     "Ocean LOD Sky Reflection",
-    "3",
-    inputs=(MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE),
+    "4",
+    inputs=(MAJOR_VARIANCE, MINOR_VARIANCE, REFLECTED_SHARE, NORMAL),
     outputs=(BSDF,),
     build=_build,
 )

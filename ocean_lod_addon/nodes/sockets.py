@@ -56,6 +56,13 @@ WATER_COLOR = Socket(
     "fell on the sea. Linear RGB",
     (0.002, 0.012, 0.03, 1.0),
 )
+NORMAL = Socket(
+    "Normal",
+    "VECTOR",
+    "Normal of what mesh and bump show of the surface, in world space. Where nothing is linked to the material's "
+    "own group it is the mesh's",
+    hide_value=True,
+)
 BSDF = Socket("BSDF", "SHADER")
 SUN_DIRECTION = Socket(
     "Sun Direction", "VECTOR", "Unit vector from the ground to the sun, in world space", (0.0, 0.0, 1.0)

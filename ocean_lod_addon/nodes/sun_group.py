@@ -20,13 +20,23 @@ from .sockets import (
     GLITTER_STRENGTH,
     MAJOR_VARIANCE,
     MINOR_VARIANCE,
+    NORMAL,
     SUN_ANGLE,
     SUN_DIRECTION,
     SUN_IRRADIANCE,
     TANGENT,
 )
 
-SUN_INPUTS = (MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT, SUN_DIRECTION, SUN_IRRADIANCE, SUN_ANGLE, GLITTER_STRENGTH)
+SUN_INPUTS = (
+    MAJOR_VARIANCE,
+    MINOR_VARIANCE,
+    TANGENT,
+    NORMAL,
+    SUN_DIRECTION,
+    SUN_IRRADIANCE,
+    SUN_ANGLE,
+    GLITTER_STRENGTH,
+)
 
 
 def _exact(graph: Graph, cos_incidence):
@@ -56,10 +66,10 @@ def _build(graph: Graph, reflectance):
     with graph.section("Directions in slope axes"):
         geometry = graph.node("ShaderNodeNewGeometry")
         axis_x, axis_y, _ = graph.input(TANGENT.name).components()
-        incoming, normal = (graph.output_of(geometry, name) for name in ("Incoming", "Normal"))
+        incoming = graph.output_of(geometry, "Incoming")
         view, light, normal = (
             ross.to_wind_axes(ops, vector.components(), axis_x, axis_y)
-            for vector in (incoming, graph.input(SUN_DIRECTION.name), normal)
+            for vector in (incoming, graph.input(SUN_DIRECTION.name), graph.input(NORMAL.name))
         )
         from_above = graph.label(1.0 - graph.output_of(geometry, "Backfacing"), "seen from above")
     with graph.section("Ross BRDF of the sun"):
@@ -74,14 +84,14 @@ def _build(graph: Graph, reflectance):
     graph.output(BSDF.name, graph.output_of(emission))
 
 
-SUN = GroupRecipe("Ocean LOD Sun", "2", SUN_INPUTS, (BSDF,), lambda graph: _build(graph, _exact))
+SUN = GroupRecipe("Ocean LOD Sun", "3", SUN_INPUTS, (BSDF,), lambda graph: _build(graph, _exact))
 
 SUN_BESIDE_CLOSURE = (
     SUN
     if HAS_EXACT_FRESNEL
     else GroupRecipe(
         "Ocean LOD Sun Beside Closure",
-        "1",
+        "2",
         (*SUN_INPUTS, FORMULA_SUN),
         (BSDF,),
         lambda graph: _build(graph, _as_the_closure),

@@ -9,15 +9,14 @@ import math
 
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe
-from .sockets import BSDF, REFLECTED_SHARE, SUN_DIRECTION, SUN_IRRADIANCE, WATER_COLOR
+from .sockets import BSDF, NORMAL, REFLECTED_SHARE, SUN_DIRECTION, SUN_IRRADIANCE, WATER_COLOR
 
 
 def _build(graph: Graph):
     """Reflectance over pi, times the sun's irradiance on the surface, times what the surface lets through."""
     ops = GraphOps(graph)
     with graph.section("Irradiance on the surface"):
-        normal = graph.output_of(graph.node("ShaderNodeNewGeometry"), "Normal")
-        cos_sun = ops.maximum(normal.dot(graph.input(SUN_DIRECTION.name)), 0.0)
+        cos_sun = ops.maximum(graph.input(NORMAL.name).dot(graph.input(SUN_DIRECTION.name)), 0.0)
         cos_sun = graph.label(cos_sun, "cos of sun angle")
     with graph.section("Radiance"):
         transmitted = graph.label(1.0 - graph.input(REFLECTED_SHARE.name), "transmitted share")
@@ -29,8 +28,8 @@ def _build(graph: Graph):
 
 SUNLIT_BODY = GroupRecipe(
     "Ocean LOD Sunlit Body",
-    "2",
-    inputs=(WATER_COLOR, REFLECTED_SHARE, SUN_DIRECTION, SUN_IRRADIANCE),
+    "3",
+    inputs=(WATER_COLOR, REFLECTED_SHARE, NORMAL, SUN_DIRECTION, SUN_IRRADIANCE),
     outputs=(BSDF,),
     build=_build,
 )

@@ -8,10 +8,8 @@ from .graph import Graph, Vector
 class SurfaceFrame:
     """The orthonormal axes at a shading point: rougher axis, smoother axis, normal (of the resolved surface)."""
 
-    def __init__(self, graph: Graph, tangent: Vector):
-        self._geometry = graph.node("ShaderNodeNewGeometry")
+    def __init__(self, graph: Graph, tangent: Vector, normal: Vector):
         self._graph = graph
-        normal = graph.output_of(self._geometry, "Normal")
         along_normal = graph.label(normal * normal.dot(tangent), "tangent along normal")
         x = graph.label((tangent - along_normal).normalized(), "rougher axis")
         y = graph.label(normal.cross(x), "smoother axis")
@@ -23,4 +21,5 @@ class SurfaceFrame:
 
     def view(self):
         """(x, y, z) of the direction to the viewer."""
-        return self.components(self._graph.output_of(self._geometry, "Incoming"))
+        geometry = self._graph.node("ShaderNodeNewGeometry")
+        return self.components(self._graph.output_of(geometry, "Incoming"))

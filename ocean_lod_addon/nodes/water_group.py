@@ -7,7 +7,7 @@
 from typing import NamedTuple
 
 from .body_group import WATER_BODY
-from .graph import Color, Graph, Shader
+from .graph import Color, Graph, GraphOps, Shader, Vector
 from .groups import GroupRecipe, use_group
 from .reflected_share_group import REFLECTED_SHARE_OF_SLOPES
 from .reflection_group import REFLECTION
@@ -20,6 +20,7 @@ from .sockets import (
     FORMULA_SUN,
     GLITTER_STRENGTH,
     MISSING_SUN,
+    NORMAL,
     ROUGHNESS,
     SLOPE_VARIANCE,
     SUN_ANGLE,
@@ -35,6 +36,7 @@ SUN_SOCKETS = (SUN_DIRECTION, SUN_IRRADIANCE, SUN_ANGLE)
 
 WATER_SOCKETS = (
     SLOPE_VARIANCE,
+    NORMAL,
     WATER_COLOR,
     TINT,
     ROUGHNESS,
@@ -61,6 +63,7 @@ class Surface(NamedTuple):
     """What both engines need of the surface: inputs of groups, by socket name."""
 
     slopes: dict
+    normal: dict
     reflected_share: dict
     color: Color
     sun: dict
@@ -71,17 +74,27 @@ def surface(graph: Graph) -> Surface:
     with graph.section("Unresolved slopes"):
         inputs = {socket.name: graph.input(socket.name) for socket in (SLOPE_VARIANCE, ROUGHNESS)}
         slopes = use_group(graph, SLOPES, inputs)
+    with graph.section("Shown normal"):
+        normal = {NORMAL.name: graph.label(_shown_normal(graph), "normal of mesh or bump")}
     with graph.section("Reflected share"):
-        reflected_share = use_group(graph, REFLECTED_SHARE_OF_SLOPES, slopes)
+        reflected_share = use_group(graph, REFLECTED_SHARE_OF_SLOPES, slopes | normal)
     with graph.section("Water color"):
         color = graph.label(graph.input(WATER_COLOR.name).times(graph.input(TINT.name)), "tinted color")
-    sun = slopes | {socket.name: graph.input(socket.name) for socket in SUN_SOCKETS}
-    return Surface(slopes, reflected_share, color, sun)
+    sun = slopes | normal | {socket.name: graph.input(socket.name) for socket in SUN_SOCKETS}
+    return Surface(slopes, normal, reflected_share, color, sun)
+
+
+def _shown_normal(graph: Graph) -> Vector:
+    """The input, or the mesh's own normal where nothing is linked to it and it is the vector 0."""
+    linked = graph.input(NORMAL.name)
+    missing = GraphOps(graph).less_than(linked.dot(linked), 0.5)
+    return linked + graph.output_of(graph.node("ShaderNodeNewGeometry"), "Normal") * missing
 
 
 def body(graph: Graph, parts: Surface, color: Color) -> Shader:
     """Light of the whole scene that comes back out of water of the given color."""
-    return use_group(graph, WATER_BODY, {WATER_COLOR.name: color, **parts.reflected_share})[BSDF.name]
+    inputs = {WATER_COLOR.name: color, **parts.reflected_share, **parts.normal}
+    return use_group(graph, WATER_BODY, inputs)[BSDF.name]
 
 
 def cycles_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
@@ -90,7 +103,7 @@ def cycles_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
     The closure reflects the sun as well, so only what the artist's strength adds to it (or takes from it: in
     Cycles emission may be negative) comes from the formula. At 1 Cycles drops the formula altogether.
     """
-    closure = use_group(graph, REFLECTION, parts.slopes)[BSDF.name]
+    closure = use_group(graph, REFLECTION, parts.slopes | parts.normal)[BSDF.name]
     surplus = graph.input(GLITTER_STRENGTH.name) - 1.0 + graph.input(FORMULA_SUN.name)
     surplus = graph.label(surplus, "glitter beyond the closure's")
     inputs = parts.sun | {GLITTER_STRENGTH.name: surplus, FORMULA_SUN.name: graph.input(FORMULA_SUN.name)}
@@ -101,7 +114,7 @@ def cycles_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
 def eevee_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
     """The sky's reflection, and the sun's by the formula."""
     variances = {socket.name: parts.slopes[socket.name] for socket in SKY_REFLECTION.inputs[:2]}
-    sky = use_group(graph, SKY_REFLECTION, variances | parts.reflected_share)[BSDF.name]
+    sky = use_group(graph, SKY_REFLECTION, variances | parts.reflected_share | parts.normal)[BSDF.name]
     strength = {GLITTER_STRENGTH.name: graph.input(GLITTER_STRENGTH.name)}
     return sky, use_group(graph, SUN, parts.sun | strength)[BSDF.name]
 
@@ -109,7 +122,7 @@ def eevee_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
 def eevee_sunlit_body(graph: Graph, parts: Surface, color: Color) -> Shader:
     """The body in the light of a sun that EEVEE leaves out."""
     missing = graph.input(SUN_IRRADIANCE.name) * graph.input(MISSING_SUN.name)
-    inputs = parts.reflected_share | {
+    inputs = parts.reflected_share | parts.normal | {
         WATER_COLOR.name: color,
         SUN_DIRECTION.name: graph.input(SUN_DIRECTION.name),
         SUN_IRRADIANCE.name: graph.label(missing, "sun that EEVEE leaves out"),
@@ -130,5 +143,5 @@ def _build(graph: Graph):
 
 
 WATER = GroupRecipe(
-    "Ocean LOD Water", "6", inputs=WATER_SOCKETS, outputs=(CYCLES, EEVEE), build=_build, needs=PARTS
+    "Ocean LOD Water", "7", inputs=WATER_SOCKETS, outputs=(CYCLES, EEVEE), build=_build, needs=PARTS
 )

@@ -9,9 +9,11 @@ from ocean_lod_addon.core.optics import fresnel, ross
 from ocean_lod_addon.core.optics.slope_density import GaussianSlopes
 from ocean_lod_addon.core.optics.smith import masked_area_exact
 
+UPWARD = np.array([0.0, 0.0, 1.0])
 
-def sun_radiance(to_viewer, to_sun, tensor, reflectance=fresnel.exact) -> float:
-    """Radiance of a flat sea under a point sun of irradiance 1, 1/sr.
+
+def sun_radiance(to_viewer, to_sun, tensor, reflectance=fresnel.exact, normal=UPWARD) -> float:
+    """Radiance of a flat sea, or of one tilted to `normal`, under a point sun of irradiance 1, 1/sr.
 
     `tensor` is (xx, yy, xy); its axes come from NumPy's eigenvalues, the shader's from a formula of its own.
     """
@@ -19,10 +21,10 @@ def sun_radiance(to_viewer, to_sun, tensor, reflectance=fresnel.exact) -> float:
     xx, yy, xy = tensor
     variances, axes = np.linalg.eigh(np.array([[xx, xy], [xy, yy]]))
     slopes = GaussianSlopes(*np.sqrt(variances), smith_masked_area=masked_area_exact)
-    view, light = ((*(axes.T @ vector[:2]), vector[2]) for vector in (to_viewer, to_sun))
+    view, light, normal = ((*(axes.T @ vector[:2]), vector[2]) for vector in (to_viewer, to_sun, normal))
     half = ross.half_vector(ops, view, light)
     F = reflectance(ops, half.cos_incidence, WATER_REFRACTIVE_INDEX)
-    return float(ross.reflection_lobe(ops, view, light, half, slopes) * F)
+    return float(ross.reflection_lobe(ops, view, light, half, slopes, ross.tilt_of_normal(ops, normal)) * F)
 
 
 def lobe_peak(to_viewer, tensor) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.sun import Sun
-from ocean_lod_addon.nodes.material import set_sun
+from ocean_lod_addon.nodes.material import NODE_NAME, set_sun
 from tests.render.flat_sea import FlatSea, direction
 from tests.render.ross_reference import lobe_peak, sun_radiance
 from tests.render.test_closure_reflection import IN_LOBE, SUN_OFFSETS, TENSORS, black_water
@@ -50,6 +50,26 @@ def test_cycles_shows_the_formula(tmp_path):
         check(sea, lambda: sea.render_cycles(tmp_path / "sea.exr"), *place, CYCLES_TOLERANCE) for place in places
     ]
     assert sum(compared) > 300  # of 44 places times 18 strips; the others lie outside their lobe
+
+
+def test_slopes_of_a_bumped_normal_add_to_the_unresolved_ones(tmp_path):
+    """Truth: the Ross BRDF with a resolved slope (THEORY section 6), which is not that of a turned frame."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    material = black_water(sun_model="formula")
+    sea = FlatSea(material, TENSORS)
+    to_viewer, to_sun = sea.look_along_x(25.0), direction(35.0, 8.0)
+    set_sun(material, Sun(tuple(to_sun), (1.0, 1.0, 1.0), 0.0))
+    normal = np.array([-0.08, 0.05, 1.0]) / np.linalg.norm([-0.08, 0.05, 1.0])
+    source = material.node_tree.nodes.new("ShaderNodeCombineXYZ")
+    for socket, value in zip(source.inputs, normal, strict=True):
+        socket.default_value = value
+    material.node_tree.links.new(source.outputs[0], material.node_tree.nodes[NODE_NAME].inputs["Normal"])
+    picture = sea.render_cycles(tmp_path / "sea.exr")[:, 0]
+    truth = np.array([sun_radiance(to_viewer, to_sun, tensor, normal=normal) for tensor in TENSORS])
+    flat = np.array([sun_radiance(to_viewer, to_sun, tensor) for tensor in TENSORS])
+    bright = truth > 1e-3 * truth.max()
+    assert picture[bright] == pytest.approx(truth[bright], rel=CYCLES_TOLERANCE)
+    assert np.all(np.abs(truth / flat - 1.0)[bright] > 0.02)
 
 
 def test_eevee_shows_the_formula(tmp_path):
