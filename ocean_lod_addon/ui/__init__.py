@@ -3,9 +3,9 @@
 
 import bpy
 
-from . import menus, operators, panels
+from . import framing, menus, operators, panels
 
-_CLASSES = (*operators.CLASSES, *panels.CLASSES)
+_CLASSES = (*operators.CLASSES, *panels.CLASSES, *framing.CLASSES)
 
 
 def register():

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plane that suits a shot: fine enough for the nearest water in frame, wide enough for the horizon."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .camera_view import CameraView, nearest_visible_water
+from .constants import EARTH_RADIUS
+from .errors import OceanError
+from .lod import CELLS_STEP, Grid
+
+_MOST_CELLS, _FEWEST_CELLS = 1024, 64
+_MOST_LEVELS = 20
+_SMALLEST_CELL = 0.002  # m; shorter waves are ripples
+_LEAST_REACH = 5e3  # m, so that an edge close by never shows from a low camera
+_HIDDEN_BEYOND = 1.2  # reach of the plane over the distance at which the highest crest sinks below the horizon
+
+
+@dataclass(frozen=True)
+class ShotNeeds:
+    """What one frame asks of the plane.
+
+    nearest        distance from the lens to the nearest water in frame, m
+    pixel_angle    angle between two pixels at the middle of the frame, rad
+    height         of the lens above the mean water level, m
+    """
+
+    nearest: float
+    pixel_angle: float
+    height: float
+
+
+def frame_needs(view: CameraView, resolution_x: int) -> ShotNeeds:
+    """What a camera asks of the plane in one frame rendered `resolution_x` pixels wide."""
+    left, right, _, _ = view.extent
+    height = abs(float(view.position[2]))
+    ahead = float(np.hypot(*(nearest_visible_water(view) - view.position[:2])))
+    distance = max(math.hypot(ahead, height), _SMALLEST_CELL)
+    if view.kind == "ORTHO":
+        return ShotNeeds(distance, (right - left) / resolution_x / distance, height)
+    if view.kind == "PANO":
+        return ShotNeeds(distance, 2.0 * math.pi / resolution_x, height)
+    return ShotNeeds(distance, (right - left) / resolution_x, height)
+
+
+def horizon_distance(height: float) -> float:
+    """Distance to the sea horizon from a height, both in m: sqrt(2 R h)."""
+    return math.sqrt(2.0 * EARTH_RADIUS * height)
+
+
+def fit(grid: Grid, needs: list[ShotNeeds], pixels_per_cell: float, highest_wave: float) -> Grid:
+    """The grid for a whole shot: `grid` with another cell size, cell count and number of levels.
+
+    The cell size is `pixels_per_cell` pixels at the nearest water of any frame. Further out cells grow with
+    distance to at most 4 / cells of it, which sets the number of cells; it is limited, as a long lens would ask
+    for millions. The levels reach past the horizon of the highest crest. Raises OceanError for an empty shot.
+    """
+    if not needs:
+        raise OceanError("the shot has no frames with a camera")
+    finest = min(need.nearest * need.pixel_angle for need in needs) * pixels_per_cell
+    cell_size = min(max(finest, _SMALLEST_CELL), 1e3)
+    widest_angle = max(need.pixel_angle for need in needs)
+    wanted = 4.0 / (pixels_per_cell * widest_angle)
+    cells = CELLS_STEP * round(min(max(wanted, _FEWEST_CELLS), _MOST_CELLS) / CELLS_STEP)
+    camera = max(need.height for need in needs)
+    reach = max(_HIDDEN_BEYOND * (horizon_distance(camera) + horizon_distance(highest_wave)), _LEAST_REACH)
+    levels = 1 + math.ceil(math.log2(reach / (0.5 * cells * cell_size)))
+    return replace(grid, cell_size=cell_size, cells=cells, levels=min(max(levels, 1), _MOST_LEVELS))
+
+
+_CURVATURE_PIXELS = 2.0
+
+
+def curvature_shows(needs: list[ShotNeeds], reach: float) -> bool:
+    """Whether the Earth's curvature moves the horizon by two pixels or more in some frame of the shot.
+
+    A flat plane's edge at the distance `reach` (m) lies h / reach below the horizontal, the true horizon
+    sqrt(2 h / R).
+    """
+    return any(
+        math.sqrt(2.0 * need.height / EARTH_RADIUS) - need.height / reach >= _CURVATURE_PIXELS * need.pixel_angle
+        for need in needs
+    )
