@@ -45,6 +45,12 @@ class MaterialSettings:
             Option("formula", "Formula", "The Ross BRDF of the sun in math nodes, for comparison"),
         ),
     )
+    skewed_slopes: bool = switch(
+        "Skewed Slopes",
+        "Steep slopes rise towards the wind, as Cox and Munk measured, where the formula reflects the sun: EEVEE, "
+        "and Cycles with Sun in Cycles set to Formula",
+        False,
+    )
     see_through: bool = switch(
         "See Through",
         "Refract and absorb light, for shots that look into the water. Slower, and the sea needs a bottom",

@@ -132,9 +132,12 @@ def _describe(item, socket):
         item.default_value = socket.default
 
 
-def use_group(graph: Graph, recipe: GroupRecipe, inputs: dict) -> dict:
-    """A node of the group of `recipe`, with its inputs connected by name; its outputs by name."""
+def use_group(graph: Graph, recipe: GroupRecipe, values: dict) -> dict:
+    """A node of the group of `recipe`, each of its inputs connected to the value of its name; its outputs by name.
+
+    `values` may hold more than this group takes.
+    """
     node = graph.node("ShaderNodeGroup", recipe.name, node_tree=find_group(recipe.name))
-    for name, value in inputs.items():
-        graph.connect(value, node.inputs[name])
+    for socket in recipe.inputs:
+        graph.connect(values[socket.name], node.inputs[socket.name])
     return {socket.name: graph.output_of(node, socket.name) for socket in recipe.outputs}

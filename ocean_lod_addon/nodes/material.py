@@ -16,7 +16,7 @@ from ..core.optics.water_types import (
     water_leaving_reflectance,
 )
 from ..core.sun import Sun
-from .clear_water_group import CLEAR_WATER
+from .clear_water_group import CLEAR_WATER, SKEWED_CLEAR_WATER
 from .groups import ensure_group
 from .layout import arrange
 from .sockets import (
@@ -36,11 +36,21 @@ from .sockets import (
     TINT,
     VOLUME,
     WATER_COLOR,
+    WIND_DIRECTION,
+    WIND_SPEED,
 )
-from .water_group import WATER
+from .water_group import SKEWED_WATER, WATER
 
 NODE_NAME = "Ocean LOD Water"
 """Name of the group node in a material."""
+
+_RECIPES = {
+    (False, False): WATER,
+    (False, True): SKEWED_WATER,
+    (True, False): CLEAR_WATER,
+    (True, True): SKEWED_CLEAR_WATER,
+}
+"""By see_through and skewed_slopes."""
 
 SLOPE_VARIANCE_ATTRIBUTE = "ocean_slope_variance"
 """Point attribute (FLOAT_VECTOR) of the mesh: unresolved slope variance (xx, yy, xy) in the object's axes."""
@@ -68,7 +78,7 @@ def ensure_material(name: str, settings: MaterialSettings) -> bpy.types.Material
     Only sockets whose setting changed since the last call are written, so that what an artist typed or linked
     elsewhere in the tree stays.
     """
-    group = ensure_group(CLEAR_WATER if settings.see_through else WATER)
+    group = ensure_group(_RECIPES[settings.see_through, settings.skewed_slopes])
     material = find_material(name) or _new_material(name)
     tree = material.node_tree
     if NODE_NAME not in tree.nodes:
@@ -89,6 +99,14 @@ def set_sun(material: bpy.types.Material, sun: Sun | None) -> None:
     _write(inputs[SUN_IRRADIANCE.name], (*sun.irradiance, 1.0))
     _write(inputs[SUN_ANGLE.name], sun.angular_diameter)
     _write(inputs[MISSING_SUN.name], 0.0 if sun.shines_in_eevee else 1.0)
+
+
+def set_wind(material: bpy.types.Material, wind_speed: float, direction: float) -> None:
+    """Tell a material with skewed slopes the wind, in m/s at 12.5 m, and where to, rad from the object's x."""
+    inputs = material.node_tree.nodes[NODE_NAME].inputs
+    if WIND_SPEED.name in inputs:
+        _write(inputs[WIND_SPEED.name], wind_speed)
+        _write(inputs[WIND_DIRECTION.name], direction)
 
 
 def _write(socket, value):

@@ -5,6 +5,7 @@ from ..core.optics.principal_slopes import principal_slopes
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe
 from .sockets import MAJOR_VARIANCE, MINOR_VARIANCE, ROUGHNESS, SLOPE_VARIANCE, TANGENT
+from .surface_frame import to_world
 
 
 def _build(graph: Graph):
@@ -17,16 +18,8 @@ def _build(graph: Graph):
     with graph.section("Principal slopes"):
         major, minor, axis_x, axis_y = principal_slopes(ops, variance_xx, variance_yy, covariance_xy)
     with graph.section("To world space"):
-        axis = graph.vector(axis_x, axis_y, 0.0)
-        to_world = graph.node(
-            "ShaderNodeVectorTransform",
-            "Rougher axis",
-            {0: axis},
-            vector_type="VECTOR",
-            convert_from="OBJECT",
-            convert_to="WORLD",
-        )
-        tangent = graph.output_of(to_world).normalized()
+        tangent = to_world(graph, graph.vector(axis_x, axis_y, 0.0), "Rougher axis")
+    graph.output(SLOPE_VARIANCE.name, tensor)
     graph.output(MAJOR_VARIANCE.name, major)
     graph.output(MINOR_VARIANCE.name, minor)
     graph.output(TANGENT.name, tangent)
@@ -34,8 +27,8 @@ def _build(graph: Graph):
 
 SLOPES = GroupRecipe(
     "Ocean LOD Slopes",
-    "1",
+    "2",
     inputs=(SLOPE_VARIANCE, ROUGHNESS),
-    outputs=(MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT),
+    outputs=(SLOPE_VARIANCE, MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT),
     build=_build,
 )

@@ -96,6 +96,23 @@ FORMULA_SUN = Socket(
     1.0,
     "FACTOR",
 )
+WIND_SPEED = Socket(
+    "Wind Speed",
+    "FLOAT",
+    "Speed of the wind 12.5 m above the water, m/s: how skewed and peaked the slopes are",
+    10.0,
+    0.0,
+    80.0,
+)
+WIND_DIRECTION = Socket(
+    "Wind Direction",
+    "FLOAT",
+    "Where the wind blows to, counter-clockwise from the object's x axis",
+    0.0,
+    -2.0 * math.pi,
+    2.0 * math.pi,
+    "ANGLE",
+)
 MISSING_SUN = Socket(
     "Missing Sun in EEVEE",
     "FLOAT",

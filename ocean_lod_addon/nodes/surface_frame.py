@@ -23,3 +23,16 @@ class SurfaceFrame:
         """(x, y, z) of the direction to the viewer."""
         geometry = self._graph.node("ShaderNodeNewGeometry")
         return self.components(self._graph.output_of(geometry, "Incoming"))
+
+
+def to_world(graph: Graph, vector: Vector, name: str) -> Vector:
+    """A unit vector in the object's axes, in world space."""
+    node = graph.node(
+        "ShaderNodeVectorTransform",
+        name,
+        {0: vector},
+        vector_type="VECTOR",
+        convert_from="OBJECT",
+        convert_to="WORLD",
+    )
+    return graph.output_of(node).normalized()

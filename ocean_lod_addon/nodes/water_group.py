@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Node group "Ocean LOD Water": the whole material of deep water, one shader output per engine.
+"""Node groups "Ocean LOD Water": the whole material of deep water, one shader output per engine.
 
-`clear_water_group` is the same for water that one looks into; both are put together from the parts here.
+`clear_water_group` is the same for water that one looks into; both are put together from the parts here. Each
+comes with Gaussian slopes and with skewed ones. The parts hand on the values they know in one table, by socket
+name.
 """
 
-from typing import NamedTuple
-
 from .body_group import WATER_BODY
-from .graph import Color, Graph, GraphOps, Shader, Vector
+from .graph import Graph, GraphOps, Shader, Vector
 from .groups import GroupRecipe, use_group
 from .reflected_share_group import REFLECTED_SHARE_OF_SLOPES
 from .reflection_group import REFLECTION
@@ -28,11 +28,11 @@ from .sockets import (
     SUN_IRRADIANCE,
     TINT,
     WATER_COLOR,
+    WIND_DIRECTION,
+    WIND_SPEED,
 )
-from .sun_group import SUN, SUN_BESIDE_CLOSURE
+from .sun_group import SKEWED_SUN, SUN, SUN_BESIDE_CLOSURE
 from .sunlit_body_group import SUNLIT_BODY
-
-SUN_SOCKETS = (SUN_DIRECTION, SUN_IRRADIANCE, SUN_ANGLE)
 
 WATER_SOCKETS = (
     SLOPE_VARIANCE,
@@ -42,10 +42,15 @@ WATER_SOCKETS = (
     ROUGHNESS,
     GLITTER_STRENGTH,
     FORMULA_SUN,
-    *SUN_SOCKETS,
+    SUN_DIRECTION,
+    SUN_IRRADIANCE,
+    SUN_ANGLE,
     MISSING_SUN,
 )
 """What the material shows, whether one sees into the water or not."""
+
+SKEWED_SOCKETS = (WIND_DIRECTION, WIND_SPEED)
+"""What it shows in addition with skewed slopes."""
 
 PARTS = (
     SLOPES,
@@ -53,35 +58,24 @@ PARTS = (
     REFLECTION,
     WATER_BODY,
     SKY_REFLECTION,
-    SUN,
     SUN_BESIDE_CLOSURE,
     SUNLIT_BODY,
 )
 
 
-class Surface(NamedTuple):
-    """What both engines need of the surface: inputs of groups, by socket name."""
-
-    slopes: dict
-    normal: dict
-    reflected_share: dict
-    color: Color
-    sun: dict
-
-
-def surface(graph: Graph) -> Surface:
-    """The sections that find the unresolved slopes, the reflected share and the tinted color."""
+def surface(graph: Graph, sockets) -> dict:
+    """The group's inputs, the unresolved slopes, the shown normal, the reflected share and the tinted color."""
+    values = {socket.name: graph.input(socket.name) for socket in sockets}
     with graph.section("Unresolved slopes"):
-        inputs = {socket.name: graph.input(socket.name) for socket in (SLOPE_VARIANCE, ROUGHNESS)}
-        slopes = use_group(graph, SLOPES, inputs)
+        values |= use_group(graph, SLOPES, values)
     with graph.section("Shown normal"):
-        normal = {NORMAL.name: graph.label(_shown_normal(graph), "normal of mesh or bump")}
+        values[NORMAL.name] = graph.label(_shown_normal(graph), "normal of mesh or bump")
     with graph.section("Reflected share"):
-        reflected_share = use_group(graph, REFLECTED_SHARE_OF_SLOPES, slopes | normal)
+        values |= use_group(graph, REFLECTED_SHARE_OF_SLOPES, values)
     with graph.section("Water color"):
-        color = graph.label(graph.input(WATER_COLOR.name).times(graph.input(TINT.name)), "tinted color")
-    sun = slopes | normal | {socket.name: graph.input(socket.name) for socket in SUN_SOCKETS}
-    return Surface(slopes, normal, reflected_share, color, sun)
+        color = values[WATER_COLOR.name].times(values[TINT.name])
+        values[WATER_COLOR.name] = graph.label(color, "tinted color")
+    return values
 
 
 def _shown_normal(graph: Graph) -> Vector:
@@ -91,57 +85,56 @@ def _shown_normal(graph: Graph) -> Vector:
     return linked + graph.output_of(graph.node("ShaderNodeNewGeometry"), "Normal") * missing
 
 
-def body(graph: Graph, parts: Surface, color: Color) -> Shader:
-    """Light of the whole scene that comes back out of water of the given color."""
-    inputs = {WATER_COLOR.name: color, **parts.reflected_share, **parts.normal}
-    return use_group(graph, WATER_BODY, inputs)[BSDF.name]
+def body(graph: Graph, values: dict) -> Shader:
+    """Light of the whole scene that comes back out of the water."""
+    return use_group(graph, WATER_BODY, values)[BSDF.name]
 
 
-def cycles_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
-    """The closure, and the sun that the formula adds to it.
+def cycles_reflection(graph: Graph, values: dict, sun: GroupRecipe) -> tuple[Shader, Shader, Shader]:
+    """The closure, the sun beside it, and the sun instead of it.
 
-    The closure reflects the sun as well, so only what the artist's strength adds to it (or takes from it: in
-    Cycles emission may be negative) comes from the formula. At 1 Cycles drops the formula altogether.
+    The closure reflects the sun itself, so only what the artist's strength adds to that comes from a formula
+    beside it, or is taken away: in Cycles emission may be negative. The formula instead is that of EEVEE. What
+    has strength 0, and by default both have, Cycles drops before it renders.
     """
-    closure = use_group(graph, REFLECTION, parts.slopes | parts.normal)[BSDF.name]
-    surplus = graph.input(GLITTER_STRENGTH.name) - 1.0 + graph.input(FORMULA_SUN.name)
-    surplus = graph.label(surplus, "glitter beyond the closure's")
-    inputs = parts.sun | {GLITTER_STRENGTH.name: surplus, FORMULA_SUN.name: graph.input(FORMULA_SUN.name)}
-    inputs = {socket.name: inputs[socket.name] for socket in SUN_BESIDE_CLOSURE.inputs}
-    return closure, use_group(graph, SUN_BESIDE_CLOSURE, inputs)[BSDF.name]
+    closure = use_group(graph, REFLECTION, values)[BSDF.name]
+    strength, formula = values[GLITTER_STRENGTH.name], values[FORMULA_SUN.name]
+    beside = graph.label((strength - 1.0) * (1.0 - formula), "glitter beyond the closure's")
+    instead = graph.label(strength * formula, "glitter by formula")
+    beside = use_group(graph, SUN_BESIDE_CLOSURE, values | {GLITTER_STRENGTH.name: beside})[BSDF.name]
+    instead = use_group(graph, sun, values | {GLITTER_STRENGTH.name: instead})[BSDF.name]
+    return closure, beside, instead
 
 
-def eevee_reflection(graph: Graph, parts: Surface) -> tuple[Shader, Shader]:
+def eevee_reflection(graph: Graph, values: dict, sun: GroupRecipe) -> tuple[Shader, Shader]:
     """The sky's reflection, and the sun's by the formula."""
-    variances = {socket.name: parts.slopes[socket.name] for socket in SKY_REFLECTION.inputs[:2]}
-    sky = use_group(graph, SKY_REFLECTION, variances | parts.reflected_share | parts.normal)[BSDF.name]
-    strength = {GLITTER_STRENGTH.name: graph.input(GLITTER_STRENGTH.name)}
-    return sky, use_group(graph, SUN, parts.sun | strength)[BSDF.name]
+    return use_group(graph, SKY_REFLECTION, values)[BSDF.name], use_group(graph, sun, values)[BSDF.name]
 
 
-def eevee_sunlit_body(graph: Graph, parts: Surface, color: Color) -> Shader:
+def eevee_sunlit_body(graph: Graph, values: dict) -> Shader:
     """The body in the light of a sun that EEVEE leaves out."""
-    missing = graph.input(SUN_IRRADIANCE.name) * graph.input(MISSING_SUN.name)
-    inputs = parts.reflected_share | parts.normal | {
-        WATER_COLOR.name: color,
-        SUN_DIRECTION.name: graph.input(SUN_DIRECTION.name),
-        SUN_IRRADIANCE.name: graph.label(missing, "sun that EEVEE leaves out"),
-    }
-    return use_group(graph, SUNLIT_BODY, inputs)[BSDF.name]
+    missing = values[SUN_IRRADIANCE.name] * values[MISSING_SUN.name]
+    missing = graph.label(missing, "sun that EEVEE leaves out")
+    return use_group(graph, SUNLIT_BODY, values | {SUN_IRRADIANCE.name: missing})[BSDF.name]
 
 
-def _build(graph: Graph):
+def _build(graph: Graph, sockets, sun: GroupRecipe):
     """Reflection, body and sun for each engine."""
-    parts = surface(graph)
+    values = surface(graph, sockets)
     with graph.section("Cycles"):
-        cycles = graph.add_shaders(*cycles_reflection(graph, parts), body(graph, parts, parts.color))
+        cycles = graph.add_shaders(*cycles_reflection(graph, values, sun), body(graph, values))
     with graph.section("EEVEE"):
-        below = (body(graph, parts, parts.color), eevee_sunlit_body(graph, parts, parts.color))
-        eevee = graph.add_shaders(*eevee_reflection(graph, parts), *below)
+        below = (body(graph, values), eevee_sunlit_body(graph, values))
+        eevee = graph.add_shaders(*eevee_reflection(graph, values, sun), *below)
     graph.output(CYCLES.name, cycles)
     graph.output(EEVEE.name, eevee)
 
 
-WATER = GroupRecipe(
-    "Ocean LOD Water", "7", inputs=WATER_SOCKETS, outputs=(CYCLES, EEVEE), build=_build, needs=PARTS
-)
+def _recipe(name, sockets, sun):
+    return GroupRecipe(
+        name, "8", sockets, (CYCLES, EEVEE), lambda graph: _build(graph, sockets, sun), needs=(*PARTS, sun)
+    )
+
+
+WATER = _recipe("Ocean LOD Water", WATER_SOCKETS, SUN)
+SKEWED_WATER = _recipe("Ocean LOD Skewed Water", WATER_SOCKETS + SKEWED_SOCKETS, SKEWED_SUN)

@@ -2,15 +2,16 @@
 """The analytic sun group is the Ross BRDF: to float32 in Cycles, to EEVEE's half floats there."""
 
 import itertools
+import math
 
 import bpy
 import numpy as np
 import pytest
 
 from ocean_lod_addon.core.sun import Sun
-from ocean_lod_addon.nodes.material import NODE_NAME, set_sun
-from tests.render.flat_sea import FlatSea, direction
-from tests.render.ross_reference import lobe_peak, sun_radiance
+from ocean_lod_addon.nodes.material import NODE_NAME, set_sun, set_wind
+from tests.render.flat_sea import FlatSea, direction, slope_tensor
+from tests.render.ross_reference import lobe_peak, skewed_sun_radiance, sun_radiance
 from tests.render.test_closure_reflection import IN_LOBE, SUN_OFFSETS, TENSORS, black_water
 
 pytestmark = pytest.mark.render
@@ -70,6 +71,27 @@ def test_slopes_of_a_bumped_normal_add_to_the_unresolved_ones(tmp_path):
     bright = truth > 1e-3 * truth.max()
     assert picture[bright] == pytest.approx(truth[bright], rel=CYCLES_TOLERANCE)
     assert np.all(np.abs(truth / flat - 1.0)[bright] > 0.02)
+
+
+@pytest.mark.parametrize(("wind_degrees", "turned"), [(0.0, False), (35.0, False), (35.0, True)])
+def test_skewed_slopes_follow_the_wind_and_the_object(wind_degrees, turned, tmp_path):
+    """Truth: the Gram-Charlier BRDF in float64; turned, the object stands the other way and its wind with it."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    material = black_water(sun_model="formula", skewed_slopes=True)
+    tensors = [slope_tensor(0.2, 0.15, wind_degrees)] * 4
+    sea = FlatSea(material, tensors)
+    sea.sea.rotation_euler = (0.0, 0.0, math.pi if turned else 0.0)
+    set_wind(material, 11.0, math.radians(wind_degrees))
+    wind_direction = math.radians(wind_degrees + 180.0 * turned)
+    skews = []
+    for view_elevation, sun in itertools.product((60.0, 15.0), ((70.0, 0.0), (25.0, 5.0), (10.0, -20.0))):
+        to_viewer, to_sun = sea.look_along_x(view_elevation), direction(*sun)
+        set_sun(material, Sun(tuple(to_sun), (1.0, 1.0, 1.0), 0.0))
+        picture = sea.render_cycles(tmp_path / "sea.exr")[:, 0]
+        truth = skewed_sun_radiance(to_viewer, to_sun, tensors[0], 11.0, wind_direction)
+        skews.append(truth / sun_radiance(to_viewer, to_sun, tensors[0]) - 1.0)
+        assert picture == pytest.approx(truth, rel=CYCLES_TOLERANCE)
+    assert max(map(abs, skews)) > 0.1  # so the test would see Gaussian slopes, or the wrong wind
 
 
 def test_eevee_shows_the_formula(tmp_path):

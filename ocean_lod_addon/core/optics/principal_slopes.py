@@ -46,3 +46,10 @@ def principal_slopes(ops, variance_xx, variance_yy, covariance_xy):
     minor = ops.maximum(mean - radius, SLOPE_VARIANCE_FLOOR)
     axis_x, axis_y = major_axis(ops, half_difference, radius, covariance_xy)
     return ops.label(major, "major variance"), ops.label(minor, "minor variance"), axis_x, axis_y
+
+
+def variance_along(ops, variance_xx, variance_yy, covariance_xy, axis_x, axis_y):
+    """Slope variance along the unit vector (axis_x, axis_y): the tensor between the vector twice, floored."""
+    by_x = ops.multiply_add(variance_xx, axis_x, covariance_xy * axis_y)
+    by_y = ops.multiply_add(covariance_xy, axis_x, variance_yy * axis_y)
+    return ops.maximum(ops.multiply_add(by_x, axis_x, by_y * axis_y), SLOPE_VARIANCE_FLOOR)
