@@ -33,6 +33,13 @@ class Framing:
         math.pi / 2,
         "rad",
     )
+    viewport_share: float = number(
+        "Viewport Waves",
+        "Share of the waves, the longest first, that move in the viewport. Renders always show all of them",
+        1.0,
+        0.05,
+        1.0,
+    )
     curved_earth: bool = switch(
         "Curved Earth",
         "Let the sea sink away with distance as the Earth does, so that the horizon lies where it should:"

@@ -55,14 +55,17 @@ class FrameKernel:
         """Number of vertices."""
         return self._tiles[-1].vertices.stop
 
-    def evaluate(self, time: float, anchors: np.ndarray, out: np.ndarray, visible=None) -> None:
+    def evaluate(
+        self, time: float, anchors: np.ndarray, out: np.ndarray, visible=None, wave_limit: int | None = None
+    ) -> None:
         """Write the positions at `time` (s) into `out`, (vertex_count, 3) float32, C-contiguous, in m.
 
-        anchors   (levels, 2) float64, m: where each level's lattice is centred, from `lod.level_anchors`
-        visible   a flag for each tile, or None for all; tiles without it lie flat
+        anchors      (levels, 2) float64, m: where each level's lattice is centred, from `lod.level_anchors`
+        visible      a flag for each tile, or None for all; tiles without it lie flat
+        wave_limit   how many waves to show, the longest, or None for all
         """
         self.fill_factors(time, anchors)
-        self._multiply(self.products(out, visible))
+        self._multiply(self.products(out, visible, wave_limit))
 
     def fill_factors(self, time: float, anchors: np.ndarray) -> None:
         """Form the factors of all levels at `time`: per line and wave one complex multiplication."""
@@ -74,12 +77,13 @@ class FrameKernel:
             phasor = self._waves.amplitude * np.exp(1j * at_anchor)
             level.fill(phasor[self._order].astype(np.complex64), anchors)
 
-    def products(self, out: np.ndarray, visible=None) -> list[Product]:
+    def products(self, out: np.ndarray, visible=None, wave_limit: int | None = None) -> list[Product]:
         """The matrix products of one frame, into `out`, (vertex_count, 3) float32."""
         runs = self._whole_plane
-        if visible is not None:
-            wave_counts = [count if seen else 0 for count, seen in zip(self._wave_counts, visible, strict=True)]
-            runs = _runs(self._tiles, wave_counts)
+        if visible is not None or wave_limit is not None:
+            most = len(self._waves) if wave_limit is None else wave_limit
+            flags = np.ones(len(self._tiles), bool) if visible is None else visible
+            runs = _runs(self._tiles, np.where(flags, np.minimum(self._wave_counts, most), 0).tolist())
         return [self._product(out, *run) for run in runs]
 
     def _product(self, out, first, last, wave_count):

@@ -44,13 +44,13 @@ class Surface:
         """Number of vertices."""
         return self._kernel.vertex_count
 
-    def placement(self, view: CameraView | None = None, cull: bool = False) -> Placement:
-        """Where the plane stands for a camera, and with `cull` which of its tiles move."""
-        return place(self.ocean.grid, self.ocean.framing, self.waves, view, cull)
+    def placement(self, view: CameraView | None = None, final: bool = False) -> Placement:
+        """Where the plane stands for a camera and what of it moves, for a `final` picture or the viewport."""
+        return place(self.ocean.grid, self.ocean.framing, self.waves, view, final)
 
     def positions(self, time: float, placement: Placement, out: np.ndarray) -> None:
         """Write the vertices' positions at `time` (s) into `out`, (vertex_count, 3) float32, in m."""
-        self._kernel.evaluate(time, placement.anchors, out, placement.visible)
+        self._kernel.evaluate(time, placement.anchors, out, placement.visible, placement.wave_limit)
 
     def undisturbed(self, anchors: np.ndarray) -> np.ndarray:
         """The vertices' undisturbed positions for level anchors, (vertex_count, 2) float64, m."""

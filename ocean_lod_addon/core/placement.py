@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the plane stands in one frame and which of its tiles move."""
+"""Where the plane stands in one frame, which of its tiles move and with how many waves."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,10 +18,12 @@ _HIGHEST_WAVE = 1.25
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """`anchors` (levels, 2) m; `visible` a bool for each tile, or None where every tile moves."""
+    """`anchors` (levels, 2) m; `visible` a bool for each tile, or None where every tile moves; `wave_limit` how
+    many waves, the longest, at most."""
 
     anchors: np.ndarray
     visible: np.ndarray | None = None
+    wave_limit: int | None = None
 
     @property
     def sees_water(self) -> bool:
@@ -28,14 +31,18 @@ class Placement:
         return self.visible is None or bool(self.visible.any())
 
 
-def place(grid: Grid, framing: Framing, waves: WaveSet, view: CameraView | None, cull: bool) -> Placement:
+def place(grid: Grid, framing: Framing, waves: WaveSet, view: CameraView | None, final: bool) -> Placement:
     """The placement of a plane for a camera (None if the scene has none); a function of its arguments alone.
 
-    With `cull`, tiles outside the frame and its margin stay flat, if the settings ask for it.
+    `final` says that a picture is rendered: tiles outside the frame and its margin stay flat, if the settings ask
+    for it, and all waves move. Otherwise the viewport shows the whole plane, with the share of waves set for it.
     """
     centre = plane_centre(grid, view) if view is not None and framing.centre == "CAMERA" else (0.0, 0.0)
     anchors = level_anchors(grid, centre)
-    if view is None or not (cull and framing.only_in_view):
+    if not final:
+        share = framing.viewport_share
+        return Placement(anchors, wave_limit=None if share == 1.0 else math.ceil(share * len(waves)))
+    if view is None or not framing.only_in_view:
         return Placement(anchors)
     highest = _HIGHEST_WAVE * 4.0 * float(np.sqrt(0.5 * np.sum(waves.amplitude**2)))
     reach = highest * float(waves.orbit_ratio.max(initial=0.0))

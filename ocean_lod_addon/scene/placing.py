@@ -50,7 +50,7 @@ def placement_of_frame(ob, surface: Surface, scene, depsgraph) -> Placement:
     if now != frame and kept is not None and kept.frame == frame and kept.surface is surface:
         return kept.placement
     view = camera_view(ob.evaluated_get(depsgraph), scene, depsgraph)
-    placement = surface.placement(view, cull=depsgraph.mode == "RENDER")
+    placement = surface.placement(view, final=depsgraph.mode == "RENDER")
     _placed[ob.session_uid] = _Placed(frame, surface, placement)
     return placement
 

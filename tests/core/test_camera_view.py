@@ -127,12 +127,19 @@ def test_a_long_lens_has_its_fine_cells_where_it_looks():
     assert np.abs(plane_centre(GRID, view) - nearest).max() <= GRID.spacing(0) * GRID.cells / 4
 
 
-def test_placement_culls_only_when_asked_and_allowed():
+def test_placement_culls_only_final_pictures_that_allow_it():
     waves = discretise(Sea(), GRID.shortest_wavelength)
     view = VIEWS["standing"]
-    assert place(GRID, Framing(), waves, view, cull=False).visible is None
-    assert place(GRID, Framing(only_in_view=False), waves, view, cull=True).visible is None
-    assert place(GRID, Framing(), waves, None, cull=True).visible is None
-    assert not place(GRID, Framing(), waves, view, cull=True).visible.all()
-    assert not place(GRID, Framing(), waves, camera(30.0, pitch=-1.4), cull=True).sees_water
-    assert (place(GRID, Framing(centre="PINNED"), waves, VIEWS["far away"], cull=False).anchors == 0.0).all()
+    assert place(GRID, Framing(), waves, view, final=False).visible is None
+    assert place(GRID, Framing(only_in_view=False), waves, view, final=True).visible is None
+    assert place(GRID, Framing(), waves, None, final=True).visible is None
+    assert not place(GRID, Framing(), waves, view, final=True).visible.all()
+    assert not place(GRID, Framing(), waves, camera(30.0, pitch=-1.4), final=True).sees_water
+    assert (place(GRID, Framing(centre="PINNED"), waves, VIEWS["far away"], final=False).anchors == 0.0).all()
+
+
+def test_the_viewport_shows_its_share_of_waves_and_pictures_all():
+    waves = discretise(Sea(), GRID.shortest_wavelength)
+    quarter = Framing(viewport_share=0.25)
+    assert place(GRID, quarter, waves, None, final=False).wave_limit == -(-len(waves) // 4)
+    assert place(GRID, quarter, waves, None, final=True).wave_limit is None

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The frame kernel equals the float64 direct sum of the corrected Eq. 2, everywhere and at any time."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,7 @@ from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.kernel import FrameKernel
 from ocean_lod_addon.core.lod import Grid, level_anchors, tiles
 from ocean_lod_addon.core.sea import Sea, WaveSystem
+from ocean_lod_addon.core.waves import WaveSet
 from ocean_lod_addon.core.windows import window, window_levels, window_reach
 
 GRID = Grid(cell_size=0.25, cells=64, levels=6)
@@ -105,6 +108,16 @@ def test_unseen_tiles_lie_flat_and_seen_ones_are_unchanged():
     for tile, seen in zip(plane, visible, strict=True):
         flat = np.stack([x[tile.vertices], y[tile.vertices], np.zeros(tile.vertex_count)], axis=-1)
         assert (part[tile.vertices] == (whole[tile.vertices] if seen else flat)).all()
+
+
+def test_a_wave_limit_keeps_the_longest_waves():
+    waves = discretise(SEA, GRID.shortest_wavelength)
+    longest = np.argsort(waves.wavelength)[-20:]
+    fewer = WaveSet(*(getattr(waves, field.name)[longest] for field in dataclasses.fields(WaveSet)[:7]))
+    anchors = level_anchors(GRID, (1.0, 2.0))
+    limited = np.empty((GRID.vertex_count, 3), np.float32)
+    FrameKernel(GRID, waves).evaluate(4.0, anchors, limited, wave_limit=20)
+    assert_equal_to_direct_sum(limited, GRID, fewer, anchors, 4.0)
 
 
 @pytest.mark.parametrize("centre", CENTRES)

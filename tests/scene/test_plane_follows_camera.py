@@ -212,3 +212,26 @@ def test_fit_to_shot_sizes_the_plane_and_can_be_undone(shot):
     scene.camera = None
     with pytest.raises(RuntimeError, match="has no camera to size the ocean for"):
         bpy.ops.object.ocean_lod_fit_to_shot()
+
+
+def test_viewport_and_render_keep_to_their_own_quality(shot):
+    """A render with all waves leaves the viewport at its share, bit for bit as before, and the other way round."""
+    ocean, _, scene = shot
+    ocean.ocean_lod.framing.only_in_view = False
+    scene.frame_set(12)
+    whole = mesh_arrays.read_positions(ocean.data)
+    ocean.ocean_lod.framing.viewport_share = 0.1
+    scene.frame_set(12)
+    viewport = mesh_arrays.read_positions(ocean.data)
+    rendered = []
+
+    def watch(*_):
+        rendered.append(mesh_arrays.read_positions(ocean.data))
+
+    bpy.app.handlers.render_post.append(watch)
+    bpy.ops.render.render()
+    bpy.app.handlers.render_post.remove(watch)
+    assert not np.array_equal(viewport, whole)
+    assert np.array_equal(rendered[0], whole)
+    scene.frame_set(12)
+    assert np.array_equal(mesh_arrays.read_positions(ocean.data), viewport)
