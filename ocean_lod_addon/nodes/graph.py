@@ -238,9 +238,10 @@ class Graph:
         return self._group_inputs[title]
 
     def finish(self):
-        """Drop what no output uses, and show only the linked sockets of the Group Input nodes."""
+        """Drop what no output uses, show only the linked sockets of Group Inputs, leave nothing selected."""
         self._remove_unused_nodes()
         for node in self.tree.nodes:
+            node.select = False
             if node.bl_idname == "NodeGroupInput":
                 for socket in node.outputs:
                     socket.hide = not socket.is_linked
@@ -309,6 +310,11 @@ class Graph:
         if scale is not None:
             self.connect(scale, node.inputs["Scale"])
         return self.output_of(node, "Value" if operation in ("DOT_PRODUCT", "LENGTH") else "Vector")
+
+    def vector_multiply_add(self, a, b, c) -> Vector:
+        """a b + c component by component, in one node; a scalar stands for three equal components."""
+        key = ("vector", "MULTIPLY_ADD", _key(a), _key(b), _key(c))
+        return self._once(key, lambda: self._emit_vector_math("MULTIPLY_ADD", (a, b, c), None))
 
     def components(self, vector) -> tuple[Scalar, Scalar, Scalar]:
         """x, y and z of a vector."""
@@ -410,3 +416,12 @@ class GraphOps:
 
     def label(self, value, name):
         return self._graph.label(value, name)
+
+    def vector(self, x, y, z):
+        return self._graph.vector(x, y, z)
+
+    def dot(self, a, b):
+        return a.dot(b)
+
+    def vector_multiply_add(self, a, factor, b):
+        return self._graph.vector_multiply_add(a, factor, b)

@@ -164,6 +164,8 @@ def _build_tree(tree):
         output.name = output.label = f"Output {socket.name}"
         output.target = socket.name.upper()
         tree.links.new(water.outputs[socket.name], output.inputs["Surface"])
+    for node in tree.nodes:
+        node.select = False
     arrange(tree)
 
 

@@ -74,8 +74,9 @@ def _build(graph: Graph, slopes_and_axis, reflectance):
             for vector in (incoming, graph.input(SUN_DIRECTION.name), graph.input(NORMAL.name))
         )
         from_above = graph.label(1.0 - graph.output_of(geometry, "Backfacing"), "seen from above")
-    with graph.section("Ross BRDF of the sun"):
+    with graph.section("Half vector"):
         half = ross.half_vector(ops, view, light)
+    with graph.section("Slope density and masking"):
         lobe = ross.reflection_lobe(ops, view, light, half, slopes, ross.tilt_of_normal(ops, normal))
     with graph.section("Fresnel"):
         F = reflectance(ops, half.cos_incidence, WATER_REFRACTIVE_INDEX)
@@ -88,7 +89,7 @@ def _build(graph: Graph, slopes_and_axis, reflectance):
 
 SUN = GroupRecipe(
     "Ocean LOD Sun",
-    "4",
+    "5",
     (MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT, *SUN_INPUTS),
     (BSDF,),
     lambda graph: _build(graph, _gaussian, fresnel.exact),
@@ -96,7 +97,7 @@ SUN = GroupRecipe(
 
 SKEWED_SUN = GroupRecipe(
     "Ocean LOD Skewed Sun",
-    "1",
+    "2",
     (SLOPE_VARIANCE, WIND_DIRECTION, WIND_SPEED, *SUN_INPUTS),
     (BSDF,),
     lambda graph: _build(graph, _skewed, fresnel.exact),
@@ -104,7 +105,7 @@ SKEWED_SUN = GroupRecipe(
 
 SUN_BESIDE_CLOSURE = GroupRecipe(
     "Ocean LOD Sun Beside Closure",
-    "1 exact" if HAS_EXACT_FRESNEL else "1 schlick",
+    "2 exact" if HAS_EXACT_FRESNEL else "2 schlick",
     SUN.inputs,
     (BSDF,),
     lambda graph: _build(graph, _gaussian, fresnel.exact if HAS_EXACT_FRESNEL else fresnel.schlick),
