@@ -86,3 +86,12 @@ def test_weights_per_point_give_a_covariance_per_point():
     assert nothing_drawn == pytest.approx(slope_covariance(waves).xx, rel=1e-15)
     assert swell_drawn == pytest.approx(mean_square_slope(0.2, 1.3) * np.cos(0.5) ** 2, rel=1e-14)
     assert all_drawn == 0.0
+
+
+def test_looping_trochoids_have_a_slope_variance_whatever_the_rounding():
+    """Truth: the steepest wave that does not loop, Q e = 1, has f = 1/Q^2; 1e-7: the root of a rounding of 1."""
+    random = np.random.default_rng(3)
+    orbit_ratio = random.uniform(0.5, 100.0, 100_000)
+    steepness = random.uniform(1.0, 50.0, 100_000) / orbit_ratio
+    found = mean_square_slope(steepness, orbit_ratio)
+    np.testing.assert_allclose(found, 1.0 / orbit_ratio**2, rtol=1e-7)

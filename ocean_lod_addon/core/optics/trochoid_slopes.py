@@ -23,7 +23,7 @@ def mean_square_slope(steepness, orbit_ratio=1.0):
     would loop (Q e > 1) counts as the steepest one that does not, Q e = 1.
     """
     e = np.asarray(steepness) / np.maximum(1.0, np.multiply(orbit_ratio, steepness))
-    Qe = orbit_ratio * e
+    Qe = np.minimum(orbit_ratio * e, 1.0)  # rounding can take the steepest one past 1, and its root to NaN
     return e * e / (1.0 + np.sqrt((1.0 - Qe) * (1.0 + Qe)))
 
 
