@@ -38,7 +38,7 @@ class OceanTime:
     )  # fmt: skip
 
     loop_frames: int = integer(
-        "Loop", "Number of frames after which the sea repeats exactly; 0 never repeats", 0, 0, 1_000_000, "frames"
+        "Loop Frames", "Number of frames after which the sea repeats exactly; 0 never repeats", 0, 0, 1_000_000
     )
 
     def __post_init__(self):

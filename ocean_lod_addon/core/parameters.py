@@ -14,7 +14,7 @@ from numbers import Integral, Real
 from .errors import OceanError, OutOfRangeError
 
 _METADATA_KEY = "parameter"
-_FILE_SUFFIX = {"": "", "m": "_m", "s": "_s", "m/s": "_m_s", "rad": "_deg", "mm": "_mm", "frames": ""}
+_FILE_SUFFIX = {"": "", "m": "_m", "s": "_s", "m/s": "_m_s", "rad": "_deg", "mm": "_mm"}
 
 
 @dataclass(frozen=True)

@@ -44,9 +44,9 @@ class WaveSystem:
     )
     sized_by: str = choice("Sized By", "What decides the size of the waves", "wind", _SIZED_BY)
     wind_speed: float = number(
-        "Wind Speed",
-        "Wind 10 m above the water in m/s, averaged over ten minutes; formulas written for another height get the"
-        " wind at that height",
+        "Wind",
+        "Speed of the wind 10 m above the water, averaged over ten minutes. Formulas for another height get"
+        " the wind at that height",
         10.0,
         0.0,
         80.0,
@@ -55,7 +55,8 @@ class WaveSystem:
     )
     fetch: float = number(
         "Fetch",
-        "Distance in m over which the wind has blown on the water; for JONSWAP, TMA and Elfouhaily",
+        "Distance over which the wind has blown on the water: the longer, the higher and longer the waves, until"
+        " they have grown up",
         300e3,
         10.0,
         1e7,
@@ -63,18 +64,20 @@ class WaveSystem:
         soft_maximum=1e6,
     )
     significant_wave_height: float = number(
-        "Significant Height",
-        "Mean height in m, trough to crest, of the highest third of the waves",
+        "Height Hs",
+        "Significant wave height: mean height, trough to crest, of the highest third of the waves",
         2.0,
         0.0,
         30.0,
         "m",
         soft_maximum=15.0,
     )
-    period: float = number("Period", "Period in s of the waves", 8.0, 0.2, 40.0, "s", soft_maximum=20.0)
+    period: float = number(
+        "Period", "Time between two crests that pass a fixed point", 8.0, 0.2, 40.0, "s", soft_maximum=20.0
+    )
     period_kind: str = choice("Period Is", "Which period you give", "peak", _PERIODS)
     peak_enhancement: float = number(
-        "Peak Enhancement",
+        "Peakedness",
         "Gamma of JONSWAP and TMA: 1 is a broad spectrum, 3.3 a growing wind sea, above 5 a long-travelled swell",
         3.3,
         1.0,
@@ -88,7 +91,7 @@ class WaveSystem:
         [kind.option for kind in SPREADINGS.values()],
     )
     spreading_exponent: float = number(
-        "Spreading Exponent",
+        "Exponent",
         "s of the cos^2s law: 1 is a wide fan, 10 a wind sea, 75 a long swell",
         10.0,
         0.1,
@@ -104,7 +107,7 @@ class WaveSystem:
         "rad",
     )
     directional_cutoff: float = number(
-        "Directional Cut-Off",
+        "Cut-Off",
         "Waves further than this from the mean direction are left out and their energy given to the others;"
         " 180 degrees leaves none out, a few degrees make the long parallel crests of a swell",
         math.pi,
@@ -132,7 +135,7 @@ class Sea:
 
     systems: tuple[WaveSystem, ...] = (WaveSystem(),)
     finite_depth: bool = switch("Finite Depth", "Whether the waves feel the bottom; off is deep water", False)
-    depth: float = number("Depth", "Depth of the water in m", 20.0, 0.05, 1e5, "m", soft_maximum=1000.0)
+    depth: float = number("Depth", "Depth of the water at rest", 20.0, 0.05, 1e5, "m", soft_maximum=1000.0)
     surface_tension: bool = switch(
         "Surface Tension",
         "Whether surface tension speeds up waves shorter than about 7 cm",
@@ -150,7 +153,7 @@ class Sea:
         "Waves", "Number of waves that a system of full share is made of; more is richer and slower", 128, 1, 4096
     )
     directions: int = integer(
-        "Waves per Band",
+        "Per Band",
         "How many waves of neighbouring length share out the fan of directions among them. 1 leaves it to chance;"
         " more makes every band of lengths fan out as its spreading law says",
         8,

@@ -6,12 +6,14 @@ import dataclasses
 
 import bpy
 
+from ..core.beaufort import BEAUFORT_SCALE, beaufort_force, typical_wind
 from ..core.framing import Framing
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
 from ..core.ocean import Ocean
 from ..core.ocean_time import OceanTime, loop_period
 from ..core.parameters import parameters_of
+from ..core.presets import Preset
 from ..core.sea import Sea, WaveSystem
 from . import rna
 
@@ -47,8 +49,28 @@ def _material_changed(group, context):
         _changes.material(group.id_data, context.scene)
 
 
+def _beaufort_of_wind(system):
+    return beaufort_force(system.wind_speed).number
+
+
+def _wind_of_beaufort(system, number):
+    system.wind_speed = round(typical_wind(number), 1)
+
+
 WaveSystemProperties = rna.property_group(
-    "OCEAN_LOD_WaveSystemProperties", rna.annotations(WaveSystem, _surface_changed)
+    "OCEAN_LOD_WaveSystemProperties",
+    rna.annotations(WaveSystem, _surface_changed)
+    | {
+        "beaufort": bpy.props.IntProperty(
+            name="Beaufort",
+            description="Force of the wind. Type a number to get the wind in the middle of that force",
+            min=0,
+            max=len(BEAUFORT_SCALE) - 1,
+            get=_beaufort_of_wind,
+            set=_wind_of_beaufort,
+            options=set(),
+        ),
+    },
 )
 SeaProperties = rna.property_group(
     "OCEAN_LOD_SeaProperties",
@@ -98,9 +120,14 @@ _CLASSES = (
 )
 
 
+def read_system(group) -> WaveSystem:
+    """One wave system."""
+    return rna.read(WaveSystem, group)
+
+
 def read_sea(properties) -> Sea:
     """The sea state that an object's properties describe, without the shot's loop."""
-    systems = tuple(rna.read(WaveSystem, group) for group in properties.sea.systems)
+    systems = tuple(read_system(group) for group in properties.sea.systems)
     return rna.read(Sea, properties.sea, systems=systems)
 
 
@@ -123,6 +150,17 @@ def read_time(properties) -> OceanTime:
 def read_material(properties) -> MaterialSettings:
     """The material settings."""
     return rna.read(MaterialSettings, properties.material)
+
+
+def read_preset(properties, title: str, description: str) -> Preset:
+    """A preset of the sea state and the water; the shot is a preset's default."""
+    return Preset(title, description, read_sea(properties), read_material(properties))
+
+
+def write_preset(preset: Preset, properties) -> None:
+    """Put a preset's sea state and water into an object's properties; the caller refreshes the ocean."""
+    write_sea(preset.sea, properties)
+    write_material(preset.material, properties)
 
 
 def write_sea(sea: Sea, properties) -> None:

@@ -12,7 +12,11 @@ import numpy as np
 
 from ..core.parameters import Choice, Integer, Number, Parameter, Switch, Text, parameters_of
 
-_DECIMALS = 4
+_FEW_DECIMALS, _MANY_DECIMALS, _MANY_DECIMALS_BELOW = 2, 3, 10.0
+"""Decimals that the panel shows, many for settings whose slider ends below the third number."""
+
+_LARGEST_STEP = 100
+"""Blender's limit for the step of a field's arrows, in hundredths."""
 
 _LONGEST_FLOAT32 = 10
 """Nine decimal digits tell any two float32 apart."""
@@ -40,16 +44,23 @@ def _property(parameter: Parameter, update, options):
     match parameter:
         case Number(unit="rad"):
             return bpy.props.FloatProperty(
-                **common, min=parameter.minimum, max=parameter.maximum, subtype="ANGLE", precision=_DECIMALS
+                **common,
+                min=parameter.minimum,
+                max=parameter.maximum,
+                subtype="ANGLE",
+                precision=_FEW_DECIMALS,
+                step=_LARGEST_STEP,
             )
         case Number():
             common |= _with_unit(parameter)
+            soft_maximum = parameter.maximum if parameter.soft_maximum is None else parameter.soft_maximum
             return bpy.props.FloatProperty(
                 **common,
                 min=parameter.minimum,
                 max=parameter.maximum,
-                soft_max=parameter.maximum if parameter.soft_maximum is None else parameter.soft_maximum,
-                precision=_DECIMALS,
+                soft_max=soft_maximum,
+                precision=_decimals(parameter, soft_maximum),
+                step=_step(soft_maximum),
             )
         case Integer():
             common |= _with_unit(parameter)
@@ -62,6 +73,20 @@ def _property(parameter: Parameter, update, options):
         case Text():
             return bpy.props.StringProperty(**common)
     raise TypeError(f"{type(parameter).__name__} is not a kind of parameter")
+
+
+def _decimals(parameter, soft_maximum):
+    """Enough to tell the smallest value from nothing."""
+    wanted = _MANY_DECIMALS if soft_maximum < _MANY_DECIMALS_BELOW else _FEW_DECIMALS
+    if parameter.minimum > 0.0:
+        wanted = max(wanted, math.ceil(-math.log10(parameter.minimum)))
+    return wanted
+
+
+def _step(soft_maximum):
+    """A hundredth of the slider, to a power of ten, in Blender's hundredths."""
+    hundredth = 10.0 ** (math.floor(math.log10(soft_maximum)) - 2)
+    return min(max(round(100.0 * hundredth), 1), _LARGEST_STEP)
 
 
 def _with_unit(parameter):

@@ -3,9 +3,9 @@
 
 import bpy
 
-from . import framing, menus, operators, panels
+from . import framing, menus, operators, panels, preset_operators, readback_cache
 
-_CLASSES = (*operators.CLASSES, *panels.CLASSES, *framing.CLASSES)
+_CLASSES = (*operators.CLASSES, *preset_operators.CLASSES, *menus.CLASSES, *panels.CLASSES, *framing.CLASSES)
 
 
 def register():
@@ -17,6 +17,7 @@ def register():
 
 def unregister():
     """Undo `register`, in reverse."""
+    readback_cache.unregister()
     menus.unregister()
     for cls in reversed(_CLASSES):
         bpy.utils.unregister_class(cls)

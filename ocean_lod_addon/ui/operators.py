@@ -7,17 +7,23 @@ from ..core import presets
 from ..core.errors import OceanError
 from ..core.lod import Grid
 from ..core.parameters import parameters_of
+from ..core.sea import WaveSystem
 from ..scene import ocean_object, properties, rna
+from . import preset_library
 
-_preset_items_kept: list[tuple[str, str, str]] = []
-"""Blender does not keep the texts of a dynamic enum alive: Python must."""
-
-
-def _preset_items(_operator, _context):
-    _preset_items_kept[:] = [
-        (name, name.replace("_", " ").capitalize(), presets.load(name).description) for name in presets.names()
-    ]
-    return _preset_items_kept
+SWELL = WaveSystem(
+    name="Swell",
+    spectrum="jonswap",
+    sized_by="height",
+    significant_wave_height=1.5,
+    period=12.0,
+    peak_enhancement=6.0,
+    spreading="cos2s",
+    spreading_exponent=40.0,
+    wave_share=0.25,
+)
+WIND_SEA = WaveSystem(wave_share=0.75)
+"""What Add Wave System offers, before the artist changes it."""
 
 
 def _unchanged(_operator, _context):
@@ -31,7 +37,12 @@ class MESH_OT_ocean_lod_add(bpy.types.Operator):
     bl_label = "Ocean (Multi-LOD)"
     bl_options = {"REGISTER", "UNDO"}
     __annotations__ = {
-        "preset": bpy.props.EnumProperty(name="Sea", description="Sea state to begin with", items=_preset_items),
+        "preset": bpy.props.EnumProperty(
+            name="Sea",
+            description="Sea state to begin with",
+            items=preset_library.items,
+            default=preset_library.first_choice(),
+        ),
         "seed": bpy.props.IntProperty(
             name="Seed", description="Another number gives another sea of the same kind", min=0
         ),
@@ -40,7 +51,7 @@ class MESH_OT_ocean_lod_add(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            preset = presets.load(self.preset)
+            preset = preset_library.load(self.preset)
             sea = presets.with_seed(preset.sea, self.seed)
             ob = ocean_object.create(context.scene, sea, rna.read(Grid, self), preset.material)
         except OceanError as error:
@@ -61,7 +72,7 @@ class MESH_OT_ocean_lod_add(bpy.types.Operator):
             layout.prop(self, name)
 
 
-class _OceanOperator:
+class OceanOperator:
     """What operators on the active ocean share."""
 
     bl_options = {"REGISTER", "UNDO"}
@@ -71,48 +82,36 @@ class _OceanOperator:
         return ocean_object.is_ocean(context.object)
 
 
-class OBJECT_OT_ocean_lod_load_preset(_OceanOperator, bpy.types.Operator):
-    """Replace the sea state and the water of this ocean by a preset's"""
-
-    bl_idname = "object.ocean_lod_load_preset"
-    bl_label = "Load Sea Preset"
-    __annotations__ = {
-        "preset": bpy.props.EnumProperty(name="Sea", description="Sea state to load", items=_preset_items)
-    }
-
-    def execute(self, context):
-        try:
-            preset = presets.load(self.preset)
-        except OceanError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        ob = context.object
-        properties.write_sea(preset.sea, ob.ocean_lod)
-        properties.write_material(preset.material, ob.ocean_lod)
-        ocean_object.refresh(ob, context.scene)
-        ocean_object.refresh_material(ob, context.scene)
-        return {"FINISHED"}
-
-
-class OBJECT_OT_ocean_lod_add_system(_OceanOperator, bpy.types.Operator):
-    """Add a wave system, such as a swell from a distant storm; its energy adds to the sea's"""
+class OBJECT_OT_ocean_lod_add_system(OceanOperator, bpy.types.Operator):
+    """Add a wave system, such as a swell from a distant storm. Its energy adds to the sea's, and the waves that
+    were there stay as they were"""
 
     bl_idname = "object.ocean_lod_add_system"
     bl_label = "Add Wave System"
+    __annotations__ = {
+        "kind": bpy.props.EnumProperty(
+            name="Kind",
+            description="What the wave system begins as",
+            items=[
+                ("SWELL", "Swell", "Long waves from a distant storm, sized by height and period"),
+                ("WIND_SEA", "Wind Sea", "Waves of a local wind, sized by its speed"),
+            ],
+        )
+    }
 
     def execute(self, context):
         ob = context.object
         sea = ob.ocean_lod.sea
         with properties.many_changes():
-            system = sea.systems.add()
-            system.name = f"System {len(sea.systems)}"
+            rna.write(SWELL if self.kind == "SWELL" else WIND_SEA, sea.systems.add())
             sea.active_system = len(sea.systems) - 1
         ocean_object.refresh(ob, context.scene)
         return {"FINISHED"}
 
 
-class OBJECT_OT_ocean_lod_remove_system(_OceanOperator, bpy.types.Operator):
-    """Remove the selected wave system"""
+class OBJECT_OT_ocean_lod_remove_system(OceanOperator, bpy.types.Operator):
+    """Remove the selected wave system. To see the sea without it, switch it off instead: that leaves the waves of
+    the systems below it as they are"""
 
     bl_idname = "object.ocean_lod_remove_system"
     bl_label = "Remove Wave System"
@@ -132,7 +131,6 @@ class OBJECT_OT_ocean_lod_remove_system(_OceanOperator, bpy.types.Operator):
 
 CLASSES = (
     MESH_OT_ocean_lod_add,
-    OBJECT_OT_ocean_lod_load_preset,
     OBJECT_OT_ocean_lod_add_system,
     OBJECT_OT_ocean_lod_remove_system,
 )

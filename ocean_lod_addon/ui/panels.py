@@ -3,16 +3,31 @@
 
 import bpy
 
+from ..core.errors import OceanError
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
 from ..core.parameters import parameters_of
-from ..scene import ocean_object
+from ..core.readback_text import (
+    CONSPICUOUS_SHIFT,
+    Line,
+    fact_lines,
+    formula_wind_lines,
+    loop_lines,
+    quantity,
+    statistics_lines,
+)
+from ..core.relevant_settings import direction_settings, size_settings
+from ..core.roughness import roughening_system
+from ..scene import ocean_object, properties
+from .layouts import draw_lines, draw_settings, draw_text
+from .menus import OCEAN_LOD_MT_preset_files
 from .operators import (
     MESH_OT_ocean_lod_add,
     OBJECT_OT_ocean_lod_add_system,
-    OBJECT_OT_ocean_lod_load_preset,
     OBJECT_OT_ocean_lod_remove_system,
 )
+from .preset_operators import OBJECT_OT_ocean_lod_load_preset, OBJECT_OT_ocean_lod_save_preset
+from .readback_cache import report_for
 
 
 class OCEAN_LOD_UL_systems(bpy.types.UIList):
@@ -53,14 +68,17 @@ class OCEAN_LOD_PT_ocean(_OceanPanel, bpy.types.Panel):
         if problem:
             box = layout.box()
             box.alert = True
-            box.label(text=problem, icon="ERROR")
-        layout.operator_menu_enum(OBJECT_OT_ocean_lod_load_preset.bl_idname, "preset", text="Sea Preset")
+            draw_text(context, box, problem, icon="ERROR")
+        row = layout.row(align=True)
+        row.operator_menu_enum(OBJECT_OT_ocean_lod_load_preset.bl_idname, "preset", text="Sea Preset")
+        row.operator(OBJECT_OT_ocean_lod_save_preset.bl_idname, text="", icon="ADD")
+        row.menu(OCEAN_LOD_MT_preset_files.__name__, text="", icon="DOWNARROW_HLT")
 
 
 class OCEAN_LOD_PT_systems(_OceanPanel, bpy.types.Panel):
     """Wave systems."""
 
-    bl_label = "Waves"
+    bl_label = "Wave Systems"
     bl_parent_id = "OCEAN_LOD_PT_ocean"
 
     def draw(self, context):
@@ -69,40 +87,64 @@ class OCEAN_LOD_PT_systems(_OceanPanel, bpy.types.Panel):
         row = layout.row()
         row.template_list("OCEAN_LOD_UL_systems", "", sea, "systems", sea, "active_system", rows=2)
         column = row.column(align=True)
-        column.operator(OBJECT_OT_ocean_lod_add_system.bl_idname, text="", icon="ADD")
+        column.operator_menu_enum(OBJECT_OT_ocean_lod_add_system.bl_idname, "kind", text="", icon="ADD")
         column.operator(OBJECT_OT_ocean_lod_remove_system.bl_idname, text="", icon="REMOVE")
         if sea.active_system < len(sea.systems):
             layout.use_property_split = True
-            _draw_system(layout, sea.systems[sea.active_system])
+            _draw_system(context, layout, sea.systems[sea.active_system])
 
 
-def _draw_system(layout, system):
+def _draw_system(context, layout, system):
+    """The settings of a system that have an effect, in the order in which an artist decides them."""
+    ocean = context.object.ocean_lod
+    settings = properties.read_system(system)
+    by_wind = settings.sized_by == "wind"
     column = layout.column()
     column.prop(system, "spectrum")
     column.prop(system, "sized_by")
-    if system.sized_by == "wind":
-        column.prop(system, "wind_speed")
-        column.prop(system, "fetch")
-    else:
-        column.prop(system, "significant_wave_height")
-        column.prop(system, "period")
-        column.prop(system, "period_kind")
-        column.prop(system, "wind_speed", text="Local Wind (m/s)")
-    column.prop(system, "peak_enhancement")
-    column = layout.column()
-    column.prop(system, "direction")
-    column.prop(system, "spreading")
-    column.prop(system, "spreading_exponent")
-    column.prop(system, "directional_cutoff")
-    column = layout.column()
-    column.prop(system, "wave_share")
-    column.prop(system, "seed")
+    if by_wind:
+        column.prop(system, "beaufort", slider=True)
+    draw_settings(layout, system, size_settings(settings))
+    if not by_wind and _roughens(ocean, system):
+        layout.prop(system, "wind_speed")
+    if settings.spectrum == "tma" and not ocean.sea.finite_depth:
+        draw_text(context, layout, "TMA needs Finite Depth, below under Water Body", icon="INFO")
+    draw_settings(layout, system, direction_settings(settings))
+    draw_settings(layout, system, ("wave_share", "seed"))
+
+
+def _roughens(ocean, system):
+    """Whether the surface's roughness comes from this system's wind."""
+    index = roughening_system(properties.read_sea(ocean))
+    return index is not None and ocean.sea.systems[index] == system
+
+
+class OCEAN_LOD_PT_winds(_OceanPanel, bpy.types.Panel):
+    """The wind of the active system at the heights of the formulas."""
+
+    bl_label = "Wind in the Formulas"
+    bl_parent_id = "OCEAN_LOD_PT_systems"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and bool(_active_wind_lines(context))
+
+    def draw(self, context):
+        draw_lines(self.layout, _active_wind_lines(context), name_share=0.7)
+
+
+def _active_wind_lines(context):
+    sea = context.object.ocean_lod.sea
+    if sea.active_system >= len(sea.systems):
+        return []
+    return formula_wind_lines(properties.read_system(sea.systems[sea.active_system]))
 
 
 class OCEAN_LOD_PT_sea(_OceanPanel, bpy.types.Panel):
     """What all wave systems share."""
 
-    bl_label = "Sea"
+    bl_label = "Water Body"
     bl_parent_id = "OCEAN_LOD_PT_ocean"
 
     def draw(self, context):
@@ -110,15 +152,43 @@ class OCEAN_LOD_PT_sea(_OceanPanel, bpy.types.Panel):
         layout.use_property_split = True
         sea = context.object.ocean_lod.sea
         layout.prop(sea, "choppiness")
-        layout.prop(sea, "finite_depth")
-        row = layout.row()
+        column = layout.column()
+        column.prop(sea, "finite_depth")
+        row = column.row()
         row.active = sea.finite_depth
         row.prop(sea, "depth")
-        column = layout.column()
-        column.prop(sea, "wave_count")
-        column.prop(sea, "directions")
-        column.prop(sea, "seed")
-        column.prop(sea, "surface_tension")
+        draw_settings(layout, sea, ("wave_count", "directions", "seed", "surface_tension"))
+
+
+class OCEAN_LOD_PT_readback(_OceanPanel, bpy.types.Panel):
+    """What the sea is, in numbers."""
+
+    bl_label = "Read-Back"
+    bl_parent_id = "OCEAN_LOD_PT_ocean"
+
+    def draw(self, context):
+        layout = self.layout
+        report, current = _report(context)
+        if report is None:
+            layout.label(text="Measuring...")
+            return
+        layout.active = current
+        heading = Line("", ("Spectrum", "Waves"))
+        draw_lines(layout.box(), [heading, *statistics_lines(report)], name_share=0.46)
+        draw_lines(layout.box(), fact_lines(report), name_share=0.5)
+
+
+def _ocean(context):
+    """What the active ocean is made from; None if its settings do not go together, as the top panel says."""
+    try:
+        return ocean_object.read_ocean(context.object, context.scene)
+    except OceanError:
+        return None
+
+
+def _report(context):
+    ocean = _ocean(context)
+    return report_for(ocean) if ocean else (None, False)
 
 
 class OCEAN_LOD_PT_time(_OceanPanel, bpy.types.Panel):
@@ -126,19 +196,31 @@ class OCEAN_LOD_PT_time(_OceanPanel, bpy.types.Panel):
 
     bl_label = "Time"
     bl_parent_id = "OCEAN_LOD_PT_ocean"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
         time = context.object.ocean_lod.time
-        layout.prop(time, "source")
-        row = layout.row()
-        row.active = time.source == "KEYED"
-        row.prop(time, "time")
-        layout.prop(time, "speed")
-        layout.prop(time, "offset")
-        layout.prop(time, "loop_frames")
+        keyed = time.source == "KEYED"
+        draw_settings(layout, time, ("source", *(("time",) if keyed else ()), "speed", "offset", "loop_frames"))
+        ocean = _ocean(context)
+        if ocean and ocean.sea.loop_period:
+            _draw_loop(context, layout, ocean, keyed)
+
+
+def _draw_loop(context, layout, ocean, keyed):
+    report, current = report_for(ocean)
+    period = ocean.sea.loop_period
+    column = layout.box().column()
+    column.active = current
+    draw_text(context, column, f"The sea repeats every {quantity(period, 's')} of its clock", icon="FILE_REFRESH")
+    if keyed:
+        draw_text(context, column, "Key Time that far in the frames of the loop", icon="BLANK1")
+    if report is None or report.loop is None:
+        return
+    draw_lines(column, loop_lines(report.loop), name_share=0.6)
+    if report.loop.rms_frequency_shift > CONSPICUOUS_SHIFT:
+        draw_text(context, column, "Waves run visibly too fast or too slow: a longer loop is truer", icon="ERROR")
 
 
 class OCEAN_LOD_PT_mesh(_OceanPanel, bpy.types.Panel):
@@ -151,8 +233,7 @@ class OCEAN_LOD_PT_mesh(_OceanPanel, bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         ob = context.object
-        for name in parameters_of(Grid):
-            layout.prop(ob.ocean_lod.grid, name)
+        draw_settings(layout, ob.ocean_lod.grid, parameters_of(Grid))
         layout.label(text=f"{len(ob.data.vertices):,} vertices, reaching {_reach(ob):,.0f} m")
 
 
@@ -170,15 +251,16 @@ class OCEAN_LOD_PT_material(_OceanPanel, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for name in parameters_of(MaterialSettings):
-            layout.prop(context.object.ocean_lod.material, name)
+        draw_settings(layout, context.object.ocean_lod.material, parameters_of(MaterialSettings))
 
 
 CLASSES = (
     OCEAN_LOD_UL_systems,
     OCEAN_LOD_PT_ocean,
     OCEAN_LOD_PT_systems,
+    OCEAN_LOD_PT_winds,
     OCEAN_LOD_PT_sea,
+    OCEAN_LOD_PT_readback,
     OCEAN_LOD_PT_time,
     OCEAN_LOD_PT_mesh,
     OCEAN_LOD_PT_material,

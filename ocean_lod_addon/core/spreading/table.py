@@ -14,7 +14,13 @@ from ..dispersion import Water
 from ..parameters import Option
 from ..spectra.pierson_moskowitz import PIERSON_MOSKOWITZ_BETA
 from ..spectra.table import Spectrum
-from ..wind import PIERSON_MOSKOWITZ_HEIGHT, SWOP_HEIGHT, wind_ratio
+from ..wind import (
+    ELFOUHAILY_HEIGHT,
+    PIERSON_MOSKOWITZ_HEIGHT,
+    REFERENCE_HEIGHT,
+    SWOP_HEIGHT,
+    wind_ratio,
+)
 from .cos2 import cosine_squared
 from .cos2s import constant_cos2s, mitsuyasu
 from .elfouhaily import elfouhaily_spreading
@@ -49,11 +55,19 @@ class Conditions:
 
 @dataclass(frozen=True)
 class SpreadingKind:
-    """A row of the table; `settings` are those of a wave system that the law alone depends on."""
+    """A row of the table.
+
+    option       what the artist chooses
+    source       the publication
+    build        the law under given conditions
+    wind_height  m, of the wind that the law is written in; None for a law that does not depend on the wind
+    settings     the settings of a wave system that the law alone depends on
+    """
 
     option: Option
     source: str
     build: Callable[[Conditions], Spreading]
+    wind_height: float | None
     settings: tuple[str, ...] = ()
 
 
@@ -86,6 +100,7 @@ _KINDS = (
         ),
         "Cote et al. 1960",
         _swop,
+        SWOP_HEIGHT,
     ),
     SpreadingKind(
         Option(
@@ -95,6 +110,7 @@ _KINDS = (
         ),
         "Mitsuyasu et al. 1975",
         _mitsuyasu,
+        REFERENCE_HEIGHT,
     ),
     SpreadingKind(
         Option(
@@ -102,17 +118,20 @@ _KINDS = (
         ),
         "Longuet-Higgins et al. 1963",
         _cos2s,
+        None,
         ("spreading_exponent",),
     ),
     SpreadingKind(
         Option("cos2", "Cos^2", "The same wide fan for waves of all lengths, none against the mean direction"),
         "Pierson et al. 1955",
         _cos2,
+        None,
     ),
     SpreadingKind(
         Option("elfouhaily", "Elfouhaily", "The fan that goes with the Elfouhaily spectrum, down to ripples"),
         "Elfouhaily et al. 1997",
         _elfouhaily,
+        ELFOUHAILY_HEIGHT,
     ),
 )
 
