@@ -57,6 +57,25 @@ def test_nodes_compute_what_numpy_computes():
     assert np.abs(actual - expected) == pytest.approx(0.0, abs=3e-5)
 
 
+def test_vectors_compute_what_numpy_computes():
+    """float32 against float64: a few roundings of values below 10."""
+
+    def build(graph):
+        ops, x, y = GraphOps(graph), graph.input("X"), graph.input("Y")
+        a, b = ops.vector(x, y, 2.0), graph.vector(y, 1.0, x)
+        c = ops.vector_multiply_add(a, x, b) + ops.vector_multiply_add(a, y, b) - a.cross(b).normalized()
+        graph.output("Result", ops.dot(c, a.times(b) * y) + (a / 2.0).length())
+
+    tree = ensure_group(recipe(build))
+    x, y = np.random.default_rng(7).uniform(0.1, 1.0, (2, 100))
+    a, b = np.stack([x, y, np.full_like(x, 2.0)], axis=-1), np.stack([y, np.ones_like(x), x], axis=-1)
+    normal = np.cross(a, b)
+    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+    c = a * x[:, None] + b + a * y[:, None] + b - normal
+    expected = np.sum(c * a * b * y[:, None], axis=-1) + 0.5 * np.linalg.norm(a, axis=-1)
+    assert TreeInterpreter(tree, {"X": x, "Y": y}).output("Result") == pytest.approx(expected, rel=1e-5)
+
+
 def _count(build):
     tree = ensure_group(recipe(build))
     return sum(not node.bl_idname.startswith("NodeGroup") for node in tree.nodes)

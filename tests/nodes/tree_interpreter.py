@@ -26,6 +26,7 @@ VECTOR_MATH = {
     "ADD": lambda a, b: a + b,
     "SUBTRACT": lambda a, b: a - b,
     "MULTIPLY": lambda a, b: a * b,
+    "MULTIPLY_ADD": lambda a, b, c: a * b + c,
     "CROSS_PRODUCT": np.cross,
     "DOT_PRODUCT": lambda a, b: np.sum(a * b, axis=-1),
     "LENGTH": lambda a: np.sqrt(np.sum(a * a, axis=-1)),
@@ -47,7 +48,9 @@ class TreeInterpreter:
 
     def input_value(self, socket):
         if socket.is_linked:
-            return self.output_value(socket.links[0].from_socket)
+            value = self.output_value(socket.links[0].from_socket)
+            is_broadcast = socket.type == "VECTOR" and socket.links[0].from_socket.type == "VALUE"
+            return value[..., None] * np.ones(3, self.dtype) if is_broadcast else value
         value = socket.default_value
         return np.asarray(value if socket.type == "VALUE" else list(value)[:3], self.dtype)
 
