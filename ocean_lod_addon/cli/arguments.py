@@ -2,6 +2,7 @@
 """What the commands' arguments mean, each with one clear line for a bad value."""
 
 import argparse
+import math
 import re
 from dataclasses import dataclass
 
@@ -60,6 +61,23 @@ def whole_number(minimum: int, maximum: int):
         if value is None or not minimum <= value <= maximum:
             raise argparse.ArgumentTypeError(
                 f"{text!r} is not allowed, give a whole number from {minimum} to {maximum}"
+            )
+        return value
+
+    return parse
+
+
+def real_number(minimum: float, maximum: float):
+    """A parser for numbers from `minimum` to `maximum`."""
+
+    def parse(text):
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not minimum <= value <= maximum:
+            raise argparse.ArgumentTypeError(
+                f"{text!r} is not allowed, give a number from {minimum:g} to {maximum:g}"
             )
         return value
 

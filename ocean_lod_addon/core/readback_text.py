@@ -58,7 +58,7 @@ def loop_lines(loop: LoopDistortion) -> list[Line]:
     return [
         Line("Loop shift, rms", (f"{loop.rms_frequency_shift:.1%}",)),
         Line("Loop shift, largest", (f"{loop.largest_frequency_shift:.1%}",)),
-        Line("Slopes in the loop", (f"{loop.slope_variance_ratio:.1%}",)),
+        Line("Loop slope variance", (f"{loop.slope_variance_ratio:.1%}",)),
     ]
 
 
