@@ -224,10 +224,15 @@ _KINDS = (
 SPECTRA: dict[str, SpectrumKind] = {kind.option.key: kind for kind in _KINDS}
 
 
+CALM = 1e-6
+"""m/s of wind, or m of wave height, up to which a system has no waves: powers of smaller sizes underflow to 0 and
+would be divided by."""
+
+
 def spectrum_of(system: WaveSystem, water: Water) -> Spectrum | None:
     """The spectrum of a wave system, or None if it has no waves: switched off, no wind, or no height."""
     kind = SPECTRA[system.spectrum]
     size = system.wind_speed if system.sized_by == "wind" else system.significant_wave_height
-    if not system.enabled or size <= 0.0:
+    if not system.enabled or size <= CALM:
         return None
     return (kind.from_wind if system.sized_by == "wind" else kind.from_height)(system, water)
