@@ -13,6 +13,9 @@ from .waves import WaveSet
 SMALLEST_JACOBIAN = 1e-3
 """Slopes divide by the Jacobian, which is 0 where a crest folds over; below this it is held."""
 
+UPWARD = np.array([0.0, 0.0, 1.0])
+"""The normal where there is none, at the cusp of a wave with C k A = 1: the mean of those on its two sides."""
+
 
 @dataclass(frozen=True, eq=False)
 class SurfacePoints:
@@ -67,12 +70,15 @@ def surface_points(waves: WaveSet, x0, y0, time: float) -> SurfacePoints:
     normal = np.cross(tangent_x, tangent_y)
     jacobian = normal[..., 2].copy()
     slope = -normal[..., :2] / np.maximum(jacobian, SMALLEST_JACOBIAN)[..., None]
+    length = np.linalg.norm(normal, axis=-1, keepdims=True)
+    cusp = length == 0.0
+    normal = np.where(cusp, UPWARD, normal / np.where(cusp, 1.0, length))
     return SurfacePoints(
         np.stack([X, Y, Z], -1),
         tangent_x,
         tangent_y,
         jacobian,
-        normal / np.linalg.norm(normal, axis=-1, keepdims=True),
+        normal,
         slope,
         np.stack([velocity_x, velocity_y, velocity_z], -1),
     )
