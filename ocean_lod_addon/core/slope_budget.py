@@ -3,7 +3,8 @@
 
 The wind sea has what Cox and Munk measured at its wind, whatever waves were chosen to stand for it, but no less
 than its spectrum carries (in a light wind, a spectrum may be steeper than the mean of their measurements); every
-other wave system has what its waves carry. What the geometry shows at a vertex is taken off.
+other wave system has what its waves carry. What the geometry shows at a vertex is taken off. What is added to the
+waves' own tensor is never negative along any direction, and so is what is left of the sum.
 """
 
 import numpy as np
@@ -33,9 +34,10 @@ def total_slope_variance(sea: Sea, waves: WaveSet) -> np.ndarray:
         return np.array([SLOPE_VARIANCE_FLOOR, SLOPE_VARIANCE_FLOOR, 0.0])
     system, own = sea.systems[rough], waves.system == rough
     tensors = wave_tensors(waves)
-    carried = along_across(tensors[own].sum(axis=0), system.direction)
-    along, across = np.maximum(wind_ripples(sea, rough).total, carried)
-    return tensor_of_axes(along, across, system.direction) + tensors[~own].sum(axis=0)
+    own_tensor = tensors[own].sum(axis=0)
+    carried = along_across(own_tensor, system.direction)
+    along, across = np.maximum(np.subtract(wind_ripples(sea, rough).total, carried), 0.0)
+    return own_tensor + tensor_of_axes(along, across, system.direction) + tensors[~own].sum(axis=0)
 
 
 def resolved_sums(grid: Grid, waves: WaveSet, values: np.ndarray) -> np.ndarray:
