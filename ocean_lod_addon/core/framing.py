@@ -34,7 +34,7 @@ class Framing:
         "rad",
     )
     viewport_share: float = number(
-        "Viewport Waves",
+        "Waves Shown",
         "Share of the waves, the longest first, that move in the viewport. Renders always show all of them",
         1.0,
         0.05,

@@ -45,7 +45,7 @@ class Grid:
         11, 1, 20,
     )  # fmt: skip
     samples_per_wavelength: float = number(
-        "Samples per Wavelength",
+        "Samples/Wave",
         "A wave is geometry where the mesh has at least this many vertices per wavelength, and fades out "
         "into shading beyond",
         4.0, 2.0, 32.0,

@@ -34,7 +34,7 @@ class MaterialSettings:
         4.0,
     )
     glitter_strength: float = number(
-        "Glitter Strength", f"Factor on the brightness of the sun's reflection. {PHYSICAL}", 1.0, 0.0, 4.0
+        "Glitter", f"Factor on the brightness of the sun's reflection. {PHYSICAL}", 1.0, 0.0, 4.0
     )
     sun_model: str = choice(
         "Sun in Cycles",
@@ -57,7 +57,7 @@ class MaterialSettings:
         False,
     )
     eevee_depth: float = number(
-        "Depth in EEVEE",
+        "Bottom",
         "With See Through: depth of the bottom that EEVEE reckons with. Cycles finds the bottom itself",
         10.0,
         0.0,

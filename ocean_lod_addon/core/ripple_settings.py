@@ -43,7 +43,7 @@ class Ripples:
         ),
     )
     shortest_wavelength: float = number(
-        "Shortest Ripple",
+        "Shortest",
         "Shorter ripples are left to roughness. Twice the size of a pixel on the nearest water is short enough",
         0.006,
         0.001,
@@ -52,7 +52,7 @@ class Ripples:
         soft_maximum=1.0,
     )
     longest_wavelength: float = number(
-        "Longest Wave",
+        "Longest",
         "Longer waves are left to roughness where the mesh is too coarse for them. Four times the height of the"
         " camera is long enough",
         8.0,

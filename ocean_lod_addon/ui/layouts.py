@@ -3,7 +3,7 @@
 
 import textwrap
 
-_PIXELS_PER_LETTER = 7.0
+_PIXELS_PER_LETTER = 6.5
 """Mean width of a letter of the interface's font at scale 1, a little too wide rather than too narrow."""
 
 _MARGIN = 60.0

@@ -215,7 +215,9 @@ def _draw_loop(context, layout, ocean, keyed):
     column.active = current
     draw_text(context, column, f"The sea repeats every {quantity(period, 's')} of its clock", icon="FILE_REFRESH")
     if keyed:
-        draw_text(context, column, "Key Time that far in the frames of the loop", icon="BLANK1")
+        time = properties.read_time(context.object.ocean_lod)
+        advance = quantity(period / abs(time.speed), "s")
+        draw_text(context, column, f"Key Time to advance {advance} in {time.loop_frames} frames", icon="BLANK1")
     if report is None or report.loop is None:
         return
     draw_lines(column, loop_lines(report.loop), name_share=0.6)
@@ -247,6 +249,7 @@ class OCEAN_LOD_PT_material(_OceanPanel, bpy.types.Panel):
 
     bl_label = "Water"
     bl_parent_id = "OCEAN_LOD_PT_ocean"
+    bl_order = 1  # after the panels about the plane
 
     def draw(self, context):
         layout = self.layout

@@ -8,9 +8,13 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.beaufort import beaufort_force
+from ocean_lod_addon.core.framing import Framing
+from ocean_lod_addon.core.lod import Grid
+from ocean_lod_addon.core.material_settings import MaterialSettings
 from ocean_lod_addon.core.ocean_time import OceanTime
 from ocean_lod_addon.core.parameters import Number, Switch, parameters_of
 from ocean_lod_addon.core.readback import theoretical_statistics
+from ocean_lod_addon.core.ripple_settings import Ripples
 from ocean_lod_addon.core.sea import Sea, WaveSystem
 from ocean_lod_addon.scene import mesh, ocean_object, properties, rna
 from ocean_lod_addon.ui import readback_cache
@@ -56,7 +60,7 @@ def test_the_sea_follows_the_beaufort_number(ocean):
     assert not np.array_equal(mesh.read_positions(ocean.data), before[1])
 
 
-@pytest.mark.parametrize("cls", [WaveSystem, Sea, OceanTime])
+@pytest.mark.parametrize("cls", [WaveSystem, Sea, OceanTime, Grid, Framing, MaterialSettings, Ripples])
 def test_names_fit_beside_their_fields(cls):
     """Truth: Blender cuts a longer name; a switch stands beside its name, with room to spare."""
     for parameter in parameters_of(cls).values():
