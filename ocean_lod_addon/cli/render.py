@@ -10,12 +10,14 @@ from ..core import presets
 from ..core.errors import OceanError
 from ..core.lod import Grid
 from ..core.sea import LARGEST_SEED
+from ..core.shot_fit import fit, frame_needs
 from .arguments import FrameRange, frame_range, resolution, whole_number
 
 NAME = "render"
 HELP = "Render a preset's shot, or an existing .blend file, to PNG, EXR or MP4."
 
-_DEFAULT_GRID = Grid(cell_size=0.03, cells=512, levels=11)
+_PIXELS_PER_CELL = 7.0
+_HIGHEST_WAVE = 20.0  # m; the plane reaches past the horizon of such a crest
 
 
 @dataclass(frozen=True)
@@ -59,11 +61,10 @@ def run(options) -> None:
     if options.blend:
         scene = _open(Path(options.blend))
         frames = frames or FrameRange(scene.frame_current, scene.frame_current)
+        _set_overrides(scene, options)
     else:
         scene = _build(options)
         frames = frames or FrameRange(1, 1)
-        _set_default_quality(scene, options)
-    _set_overrides(scene, options)
     _set_output(scene, output, output_format, frames)
     if options.save_blend:
         _save(Path(options.save_blend))
@@ -118,17 +119,20 @@ def _open(path):
 def _build(options):
     import bpy
 
-    from ..scene import ocean_object, shot_scene
+    from ..scene import ocean_object, placing, shot_scene
 
     preset = presets.load(options.preset)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     _ensure_registered()
     scene = bpy.context.scene
-    ob = ocean_object.create(
-        scene, presets.with_seed(preset.sea, options.seed), _DEFAULT_GRID, preset.material
-    )
-    scene.collection.objects.link(ob)
+    _set_default_quality(scene, options)
+    _set_overrides(scene, options)
     shot_scene.build(scene, preset.shot)
+    bpy.context.view_layer.update()
+    needs = frame_needs(placing.view_of(scene.camera, scene), scene.render.resolution_x)
+    grid = fit(Grid(), [needs], _PIXELS_PER_CELL, _HIGHEST_WAVE)
+    sea = presets.with_seed(preset.sea, options.seed)
+    scene.collection.objects.link(ocean_object.create(scene, sea, grid, preset.material))
     return scene
 
 

@@ -6,7 +6,6 @@ writes arrays into what is there: Blender may call it from a worker thread.
 """
 
 import functools
-import itertools
 import sys
 import threading
 
@@ -19,8 +18,7 @@ from ..core.material_settings import MaterialSettings
 from ..core.ocean import Ocean, Surface
 from ..core.ocean_time import sea_time
 from ..core.sea import Sea
-from ..nodes.material import MATERIAL_KEY, ensure_material, find_material
-from . import clock, placing, properties
+from . import clock, ocean_material, placing, properties
 from . import mesh as mesh_arrays
 
 _MODIFIER_NAME = "Ocean LOD"
@@ -56,7 +54,7 @@ def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"
         properties.write_material(material, ob.ocean_lod)
         _add_deform_modifier(ob)
         _rebuild_and_move(ob, scene)
-        _apply_material(ob)
+        ocean_material.apply(ob, scene)
     except OceanError:
         bpy.data.meshes.remove(ob.data)
         raise
@@ -102,7 +100,9 @@ def update(ob, scene, depsgraph) -> None:
     """
     evaluated = ob.evaluated_get(depsgraph)
     _check_transform(evaluated, scene)
-    surface = _surface(read_ocean(evaluated, scene))
+    ocean = read_ocean(evaluated, scene)
+    surface = _surface(ocean)
+    ocean_material.set_surroundings(ob, depsgraph.scene_eval, ocean.sea)
     placement = placing.placement_of_frame(ob, surface, scene, depsgraph)
     if placement.sees_water:
         _write_surface(ob, surface, placement, scene_sea_time(evaluated, scene))
@@ -145,7 +145,7 @@ def refresh(ob, scene) -> None:
 def refresh_material(ob, scene) -> None:
     """Bring an ocean's material in step with its settings."""
     if is_ocean(ob):
-        _apply_material(ob)
+        ocean_material.apply(ob, scene)
 
 
 def _rebuild_and_move(ob, scene):
@@ -189,23 +189,3 @@ def _write_surface(ob, surface, placement, time):
         positions = _buffer(surface.vertex_count)
         surface.positions(time, placement, positions)
         mesh_arrays.write_positions(mesh, positions)
-
-
-def _apply_material(ob):
-    material = ensure_material(_material_name(ob), properties.read_material(ob.ocean_lod))
-    if not ob.data.materials:
-        ob.data.materials.append(material)
-
-
-def _material_name(ob):
-    """The name that the ocean's material was made under; for an ocean without one, a name not in use."""
-    for material in ob.data.materials:
-        if material is not None and MATERIAL_KEY in material:
-            return material[MATERIAL_KEY]
-    numbered = (f"{ob.name} {number}" for number in itertools.count(2))
-    names = itertools.chain([ob.name], numbered)
-    return next(name for name in names if _is_free(find_material(name)))
-
-
-def _is_free(material):
-    return material is None or material.users == 0

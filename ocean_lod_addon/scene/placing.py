@@ -62,7 +62,13 @@ def camera_view(ob, scene, depsgraph=None) -> CameraView | None:
         return None
     if depsgraph is not None:
         camera = camera.evaluated_get(depsgraph)
-    matrix = np.array(ob.matrix_world.inverted() @ camera.matrix_world.normalized())
+    return view_of(camera, scene, ob.matrix_world.inverted())
+
+
+def view_of(camera, scene, to_ocean=None) -> CameraView:
+    """A camera in an ocean's coordinates; `to_ocean` is the matrix from the world's to them, if they differ."""
+    matrix = camera.matrix_world.normalized()
+    matrix = np.array(matrix if to_ocean is None else to_ocean @ matrix)
     corners = np.array([corner[:] for corner in camera.data.view_frame(scene=scene)])
     if camera.data.type == "PERSP":
         corners = corners / -corners[:, 2:]

@@ -18,7 +18,7 @@ class OBJECT_OT_ocean_lod_fit_to_shot(bpy.types.Operator):
     __annotations__ = {
         "pixels_per_cell": bpy.props.FloatProperty(
             name="Pixels per Cell",
-            description="Size of the mesh's cells in pixels at the nearest water in frame; less is finer and slower",
+            description="Size of the cells in pixels at the nearest water in frame; less is finer and slower",
             default=8.0,
             min=1.0,
             max=100.0,
