@@ -21,6 +21,12 @@ def apply(ob, scene) -> None:
     set_surroundings(ob, scene, properties.read_sea(ob.ocean_lod))
 
 
+def own_material(ob):
+    """The material that was made for an ocean, the first if it has several, or None."""
+    ours = (material for material in ob.data.materials if material is not None and MATERIAL_KEY in material)
+    return next(ours, None)
+
+
 def set_surroundings(ob, scene, sea: Sea) -> None:
     """Tell an ocean's materials the sun of a scene (original or evaluated) and the wind of a sea.
 
@@ -40,9 +46,9 @@ def set_surroundings(ob, scene, sea: Sea) -> None:
 
 def _material_name(ob):
     """The name that the ocean's material was made under; for an ocean without one, a name not in use."""
-    for material in ob.data.materials:
-        if material is not None and MATERIAL_KEY in material:
-            return material[MATERIAL_KEY]
+    material = own_material(ob)
+    if material is not None:
+        return material[MATERIAL_KEY]
     numbered = (f"{ob.name} {number}" for number in itertools.count(2))
     names = itertools.chain([ob.name], numbered)
     return next(name for name in names if _is_free(find_material(name)))
