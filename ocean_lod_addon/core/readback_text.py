@@ -63,16 +63,16 @@ def loop_lines(loop: LoopDistortion) -> list[Line]:
 
 
 def formula_wind_lines(system: WaveSystem) -> list[Line]:
-    """The wind that each formula gets, at the height that it is written for; none for a system without wind."""
+    """The height that each formula is written for, and the wind there; nothing for a system without wind."""
     if system.sized_by != "wind":
         return []
     spectrum, spreading = SPECTRA[system.spectrum], SPREADINGS[system.spreading]
     heights = [(spectrum.option.label, spectrum.wind_height)]
     if spreading.wind_height is not None and spreading.option.label != spectrum.option.label:
         heights.append((spreading.option.label, spreading.wind_height))
-    heights.append(("Cox-Munk roughness", COX_MUNK_HEIGHT))
+    heights.append(("Cox-Munk glitter", COX_MUNK_HEIGHT))
     return [
-        Line(f"{label}, at {height:g} m", (quantity(wind_at_height(system.wind_speed, height), "m/s"),))
+        Line(label, (f"at {height:g} m", quantity(wind_at_height(system.wind_speed, height), "m/s")))
         for label, height in heights
     ]
 

@@ -124,14 +124,13 @@ class OCEAN_LOD_PT_winds(_OceanPanel, bpy.types.Panel):
 
     bl_label = "Wind in the Formulas"
     bl_parent_id = "OCEAN_LOD_PT_systems"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context):
         return super().poll(context) and bool(_active_wind_lines(context))
 
     def draw(self, context):
-        draw_lines(self.layout, _active_wind_lines(context), name_share=0.7)
+        draw_lines(self.layout, _active_wind_lines(context), name_share=0.48)
 
 
 def _active_wind_lines(context):

@@ -71,7 +71,7 @@ class OBJECT_OT_ocean_lod_save_preset(_PresetOperator, bpy.types.Operator):
     }
 
     def invoke(self, context, _event):
-        return context.window_manager.invoke_props_dialog(self, width=400)
+        return context.window_manager.invoke_props_dialog(self, width=400, confirm_text="Save")
 
     def draw(self, _context):
         layout = self.layout

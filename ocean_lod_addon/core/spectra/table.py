@@ -179,8 +179,8 @@ _KINDS = (
     SpectrumKind(
         Option(
             "two_parameter",
-            "ISSC / ITTC / Bretschneider",
-            "The standard of ship design: any wave height with any period",
+            "Bretschneider/ISSC",
+            "The standard of ship design, by ISSC and ITTC: any wave height with any period",
         ),
         "Bretschneider 1959; ISSC 1964; ITTC 1978",
         PIERSON_MOSKOWITZ_HEIGHT,
