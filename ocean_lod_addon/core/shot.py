@@ -26,12 +26,12 @@ class Shot:
         "Focal Length", "Focal length of the lens on a 36 mm wide sensor", 35.0, 1.0, 5000.0, "mm", 200.0
     )
     sun_elevation: float = number(
-        "Sun Elevation", "Height of the sun above the horizon", math.radians(14.0), 0.0, math.pi / 2, "rad"
+        "Sun Elevation", "Height of the sun above the horizon", math.radians(20.0), 0.0, math.pi / 2, "rad"
     )
     sun_azimuth: float = number(
         "Sun Azimuth",
         "Direction to the sun, counter-clockwise from +X, where the camera looks to",
-        math.radians(-6.0),
+        math.radians(-8.0),
         -math.pi,
         math.pi,
         "rad",

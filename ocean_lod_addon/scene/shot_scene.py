@@ -9,7 +9,7 @@ from mathutils import Matrix, Vector
 from ..core.shot import Shot
 
 _SUN_ANGULAR_DIAMETER = math.radians(0.545)
-_DAYLIGHT_EXPOSURE = -3.5
+_DAYLIGHT_EXPOSURE = -3.9
 """Stops from the sky model's radiance (W/m^2/sr/channel) to a picture of a sunny day."""
 
 _CLIP_START, _CLIP_END = 0.05, 200e3  # m
