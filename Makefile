@@ -21,14 +21,18 @@ FILM_SAMPLES ?= 12
 # Passed on to pytest, for example: make test TESTS="tests/core -k dispersion"
 TESTS ?=
 
-.PHONY: help demo test test-5.2 test-4.5 lint bench zip clean environment-blender-5.2 environment-blender-4.5 \
+# Passed on to the benchmark, for example: make bench BENCH=--full
+BENCH ?=
+
+.PHONY: help demo test test-5.2 test-4.5 lint bench bench-without-blas zip clean environment-blender-5.2 environment-blender-4.5 \
 	environment-lint
 
 help:
 	@echo 'make demo    render a still and a short film of the sea to out/'
 	@echo 'make test    run all tests on Blender 5.2 and on Blender 4.5'
 	@echo 'make lint    check the style of the code'
-	@echo 'make bench   measure the time a frame takes'
+	@echo 'make bench   measure the time a frame takes (BENCH=--full for the whole table)'
+	@echo 'make bench-without-blas    the same, and with a NumPy without BLAS, which it compiles'
 	@echo 'make zip     build the extension, to install in Blender, in dist/'
 	@echo 'make clean   remove the environments and everything that was built'
 
@@ -54,7 +58,11 @@ lint: environment-lint
 	.env/lint/bin/python -m ruff check .
 
 bench: environment-blender-5.2
-	$(BLENDER_5.2) -m ocean_lod_addon bench
+	$(BLENDER_5.2) -m ocean_lod_addon bench $(BENCH)
+
+bench-without-blas: environment-blender-5.2
+	$(BLENDER_5.2) tools/numpy_without_blas.py
+	$(BLENDER_5.2) -m ocean_lod_addon bench --numpy-without-blas .env/numpy-without-blas/bin/python $(BENCH)
 
 zip: environment-blender-5.2
 	$(BLENDER_5.2) tools/extension.py

@@ -31,7 +31,10 @@ LOADS_WITHOUT_BLENDER = {"core", "cli", "__init__", "__main__"}
 NEEDS_BLENDER = {"nodes", "scene", "ui"} | BLENDER_MODULES
 
 # Modules that one file may import where they are installed: it says what is missing where they are not.
-OPTIONAL = {"ocean_lod_addon/cli/sea_plot.py": {"matplotlib"}}
+OPTIONAL = {
+    "ocean_lod_addon/cli/sea_plot.py": {"matplotlib"},
+    "ocean_lod_addon/cli/bench/plot.py": {"matplotlib"},
+}
 
 FORBIDDEN_CALLS = {"eval", "exec", "compile", "__import__"}
 FORBIDDEN_MODULES = {"pickle", "marshal", "shelve", "dill"}

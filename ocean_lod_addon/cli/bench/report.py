@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The results as text for the terminal."""
+
+from . import workloads
+from .in_blender import DEPSGRAPH, WRITE
+from .measurements import (
+    DIRECT,
+    DISPLACE,
+    EINSUM,
+    FRAME,
+    GENERATE,
+    PRODUCTS,
+    UPDATE,
+    Row,
+    Scaling,
+    ViewResult,
+)
+from .targets import NOT_MEASURED, Target
+from .timing import Timing
+
+_NOTHING, _WIDTH = "-", 9
+
+_COLUMNS = (
+    ("plane", lambda row: row.kind),
+    ("vertices", lambda row: str(row.vertices)),
+    ("waves", lambda row: str(row.waves)),
+    ("surface", lambda row: _part(row, "surface")),
+    ("write", lambda row: _part(row, WRITE)),
+    ("update", lambda row: _time(row, UPDATE)),
+    ("products", lambda row: _time(row, PRODUCTS)),
+    ("GFLOP/s", lambda row: f"{row.flops / row.timings[PRODUCTS].median() / 1e9:.0f}"),
+    ("of best", lambda row: f"{100 * row.share_of_best_rate.of_medians:.0f} %"),
+    ("frame", lambda row: _time(row, FRAME)),
+    ("einsum", lambda row: _time(row, EINSUM)),
+    *(
+        (name.replace("direct sum, float", "sum f"), lambda row, name=name: _time(row, name))
+        for name in DIRECT.values()
+    ),
+    ("generate", lambda row: _time(row, GENERATE)),
+    ("displace", lambda row: _time(row, DISPLACE)),
+)
+
+LEGEND = """\
+Milliseconds, medians.
+plane     square: one level with every wave on every vertex; horizon: out to the horizon, as in a shot
+update    surface (the positions of all vertices) + write (into the mesh)
+products  the matrix products in the surface by themselves; of best: their rate over that of the best square one
+frame     the same update in Blender, with Blender's evaluation of the object
+einsum    the frame as a NumPy without BLAS makes it
+sum       a plain NumPy sum over the waves
+generate, displace: Blender's Ocean modifier with as many vertices, with Blender's evaluation of its object"""
+
+
+def header() -> str:
+    """The line above the rows."""
+    return "".join(f"{name:>{_WIDTH}}" for name, _ in _COLUMNS)
+
+
+def line(row: Row) -> str:
+    """One row of the table."""
+    return "".join(f"{value(row):>{_WIDTH}}" for _, value in _COLUMNS)
+
+
+def _time(row, name):
+    timing = row.timings.get(name)
+    return _NOTHING if timing is None else _milliseconds(timing.median())
+
+
+def _part(row, part):
+    timing = row.timings[UPDATE]
+    return _milliseconds(timing.part(part)) if part in timing.parts else _NOTHING
+
+
+def _milliseconds(seconds):
+    value = 1e3 * seconds
+    return f"{value:.2f}" if value < 10.0 else f"{value:.1f}" if value < 100.0 else f"{value:.0f}"
+
+
+def scaling_lines(scaling: Scaling) -> list[str]:
+    """How a surface's time grows."""
+    return [
+        *(
+            f"  {step.text}: {step.ratio.of_medians:.2f} times, exponent {step.exponent:.2f}"
+            for step in scaling.steps
+        ),
+        f"  at t = 1e6 s instead of 0: {scaling.late_over_early.of_medians:.2f} times",
+    ]
+
+
+def view_lines(view: ViewResult) -> list[str]:
+    """The plane under a camera."""
+    return [
+        f"  {view.vertices} vertices, {view.waves} waves, {100 * view.share_in_view:.0f} % of them in view",
+        *(
+            f"  {name}: {_milliseconds(view.timings[name].median())} ms"
+            for name in (workloads.WHOLE, workloads.MOVING, workloads.IN_VIEW)
+        ),
+    ]
+
+
+def menu_ocean_line(timing: Timing) -> str:
+    """The ocean that the menu adds."""
+    handler, depsgraph = timing.part("handler"), timing.part(DEPSGRAPH)
+    return f"  frame-change handler {_milliseconds(handler)} ms, then Blender {_milliseconds(depsgraph)} ms"
+
+
+def memory_lines(row: Row) -> list[str]:
+    """What a frame allocates and what an ocean keeps."""
+    lines = [
+        f"  allocated while a frame is made: {row.allocated} bytes ({row.vertices} vertices, {row.waves} waves)",
+        f"  kept per vertex: {row.kernel_bytes / row.vertices:.1f} bytes of factors, 12 of positions",
+    ]
+    if row.mesh_bytes is not None:
+        lines.append(f"  in Blender's mesh per vertex: {row.mesh_bytes / row.vertices:.1f} bytes")
+    return lines
+
+
+def target_lines(targets: list[Target]) -> list[str]:
+    """The closing table."""
+    width = max(len(target.text) for target in targets)
+    return [f"{'':{width}}        limit  medians  fastest"] + [
+        f"{target.text:{width}}  {_limit(target):>10}  {_ratios(target)}  {target.verdict}" for target in targets
+    ]
+
+
+def _limit(target):
+    return f"{'<=' if target.at_most else '>='} {target.limit:g}"
+
+
+def _ratios(target):
+    if target.verdict == NOT_MEASURED:
+        return f"{_NOTHING:>7}  {_NOTHING:>7}"
+    return f"{_number(target.measured.of_medians):>7}  {_number(target.measured.of_minima):>7}"
+
+
+def _number(value):
+    return f"{value:.1f}" if value >= 10.0 else f"{value:.2f}" if value >= 0.01 else f"{value:.1e}"
