@@ -12,6 +12,8 @@ so the corrected Eq. 2 of the paper, summed over waves i, is for each tile of th
     positions    = L @ R
 
 with weights i C cos(theta), i C sin(theta), 1 for x, y, z (C the orbit ratio) and the window w_i of each wave.
+Velocities and derivatives are further blocks of columns of R (core.column_blocks), over the same L. A block that
+is never asked for is never formed.
 Lines are counted from their level's anchor, whose own phase k . anchor joins phi. R changes only with the anchors,
 and then only for waves that fade within the level; per frame only L is formed, a vector of phases times a static
 matrix. Phases are formed in float64 and reduced modulo 2 pi before they are rounded, so that precision does not
@@ -21,7 +23,7 @@ are zero there, by taking the tail of the inner dimension, and a tile that nobod
 
 import numpy as np
 
-from .constants import EARTH_RADIUS
+from .column_blocks import POSITION, ColumnBlock, Still
 from .contraction import CONTRACTIONS, Product, fastest_contraction
 from .lod import Grid, tiles
 from .waves import WaveSet
@@ -55,19 +57,42 @@ class FrameKernel:
         """Number of vertices."""
         return self._tiles[-1].vertices.stop
 
+    @property
+    def tile_count(self) -> int:
+        """Number of tiles."""
+        return len(self._tiles)
+
+    @property
+    def blocks(self) -> set[ColumnBlock]:
+        """The blocks of columns that were asked for so far, and take memory."""
+        return self._levels[0].blocks
+
     def evaluate(
-        self, time: float, anchors: np.ndarray, out: np.ndarray, visible=None, wave_limit: int | None = None
+        self,
+        time: float,
+        anchors: np.ndarray,
+        out: np.ndarray,
+        visible=None,
+        wave_limit: int | None = None,
+        more: dict[ColumnBlock, np.ndarray] | None = None,
     ) -> None:
         """Write the positions at `time` (s) into `out`, (vertex_count, 3) float32, C-contiguous, in m.
 
         anchors      (levels, 2) float64, m: where each level's lattice is centred, from `lod.level_anchors`
         visible      a flag for each tile, or None for all; tiles without it lie flat
         wave_limit   how many waves to show, the longest, or None for all
+        more         further blocks of columns to evaluate, each into an array like `out` with its columns
         """
-        self.fill_factors(time, anchors)
-        self._multiply(self.products(out, visible, wave_limit))
+        outputs = {POSITION: out} | (more or {})
+        self.fill_factors(time, anchors, outputs)
+        products = [
+            product
+            for block, array in outputs.items()
+            for product in self.products(array, visible, wave_limit, block)
+        ]
+        self._multiply(products)
 
-    def fill_factors(self, time: float, anchors: np.ndarray) -> None:
+    def fill_factors(self, time: float, anchors: np.ndarray, blocks=(POSITION,)) -> None:
         """Form the factors of all levels at `time`: per line and wave one complex multiplication."""
         phase = self._waves.phase_at(time)
         k, theta = self._waves.wavenumber, self._waves.direction
@@ -75,27 +100,30 @@ class FrameKernel:
             x, y = anchors[number]
             at_anchor = np.mod(phase + k * (x * np.cos(theta) + y * np.sin(theta)), 2.0 * np.pi)
             phasor = self._waves.amplitude * np.exp(1j * at_anchor)
-            level.fill(phasor[self._order].astype(np.complex64), anchors)
+            level.fill(phasor[self._order].astype(np.complex64), anchors, blocks)
 
-    def products(self, out: np.ndarray, visible=None, wave_limit: int | None = None) -> list[Product]:
-        """The matrix products of one frame, into `out`, (vertex_count, 3) float32."""
+    def products(
+        self, out: np.ndarray, visible=None, wave_limit: int | None = None, block: ColumnBlock = POSITION
+    ) -> list[Product]:
+        """The matrix products of one block of a frame, into `out`, (vertex_count, block.columns) float32."""
         runs = self._whole_plane
         if visible is not None or wave_limit is not None:
             most = len(self._waves) if wave_limit is None else wave_limit
             flags = np.ones(len(self._tiles), bool) if visible is None else visible
             runs = _runs(self._tiles, np.where(flags, np.minimum(self._wave_counts, most), 0).tolist())
-        return [self._product(out, *run) for run in runs]
+        return [self._product(out, block, *run) for run in runs]
 
-    def _product(self, out, first, last, wave_count):
+    def _product(self, out, block, first, last, wave_count):
         """The product of consecutive tiles with the `wave_count` longest waves."""
         tile, end = self._tiles[first], self._tiles[last]
         level = self._levels[tile.level]
         inner = slice(2 * (level.wave_count - wave_count), None)
         vertices = slice(tile.first_vertex, end.vertices.stop)
+        columns = slice(block.columns * tile.column_start, block.columns * tile.column_stop)
         return Product(
             level.left[tile.row_start : end.row_stop, inner],
-            level.right[inner, 3 * tile.column_start : 3 * tile.column_stop],
-            out[vertices].reshape(-1, 3 * tile.columns),
+            level.right(block)[inner, columns],
+            out[vertices].reshape(-1, block.columns * tile.columns),
         )
 
 
@@ -130,92 +158,128 @@ def _continues(first, last, tile):
 
 
 class _Level:
-    """One level's factors L and R, and what is needed to refill them.
+    """One level's left factor L, and its right factors R, one for each block of columns that was asked for.
 
-    The last rows of R are the undisturbed plane, last so that small terms are summed first. They multiply the
-    columns x, 1 of L, and with a curved Earth also x^2, which takes a second column (1 again, times 0) to keep L
-    an array of complex pairs.
+    The last columns of L are those of the undisturbed plane, last so that small terms are summed first: x, 1, and
+    with a curved Earth also x^2, which takes a second column (of zeros) to keep L an array of complex pairs.
     """
 
     def __init__(self, grid, number, waves, order, curved_earth):
         lines = grid.lines(number)
-        self._number, self._lines, self._curved = number, lines, curved_earth
+        self.number, self.lines, self.curved = number, lines, curved_earth
         reach = window_reach(grid, waves.wavelength[order])
         self.first_wave = int(np.searchsorted(reach, _nearest(grid, number), side="right"))
-        present = order[self.first_wave :]
-        self.wave_count = len(present)
-        self._reach = reach[self.first_wave :]
-        self._groups = _groups(window_levels(grid, waves.wavelength[present]))
-        self._placed = None
+        self.present = order[self.first_wave :]
+        self.wave_count = len(self.present)
+        self.waves = waves
+        self.reach = reach[self.first_wave :]
+        self.window_levels = window_levels(grid, waves.wavelength[self.present])
+        self._windows = _Windows(self, axis=0)
+        self._blocks: dict[ColumnBlock, _Right] = {}
 
-        theta, k = waves.direction[present], waves.wavenumber[present]
-        orbit = waves.orbit_ratio[present]
+        k, theta = waves.wavenumber[self.present], waves.direction[self.present]
         self._wave_x = np.exp(1j * np.outer(lines, k * np.cos(theta))).astype(np.complex64)  # (lines, waves)
-        self._wave_y = np.exp(1j * np.outer(k * np.sin(theta), lines)).astype(np.complex64)  # (waves, lines)
-        self._weights = np.stack(
-            [1j * orbit * np.cos(theta), 1j * orbit * np.sin(theta), np.ones(len(present))], axis=-1
-        ).astype(np.complex64)
-        base = 4 if curved_earth else 2
+        self.wave_y = np.exp(1j * np.outer(k * np.sin(theta), lines)).astype(np.complex64)  # (waves, lines)
         self._static_left = np.empty_like(self._wave_x)
-        self.left = np.zeros((len(lines), 2 * len(present) + base), np.float32)
+        self.base_rows = 4 if curved_earth else 2
+        self.left = np.zeros((len(lines), 2 * self.wave_count + self.base_rows), np.float32)
         self.left[:, -2], self.left[:, -1] = lines, 1.0
-        self.right = np.zeros((2 * len(present) + base, 3 * len(lines)), np.float32)
-        self.right[-2, 0::3] = 1.0  # X = x_a + ...
 
-    def fill(self, phasor, anchors):
-        """Refill R where the anchors have moved, and L with the phasors of all waves, shortest first."""
-        placed = anchors.tobytes()
-        if placed != self._placed:
-            self._place(anchors)
-            self._placed = placed
+    def fill(self, phasor, anchors, blocks):
+        """Refill L with the phasors of all waves, shortest first, and the blocks' R where the anchors moved."""
+        self._windows.place(anchors, self._refill)
+        if self.curved:
+            self.left[:, -4] = (self.lines + (anchors[self.number] - anchors[0])[0]) ** 2
         waves_of_left = self.left.view(np.complex64)[:, : self.wave_count]
         np.multiply(self._static_left, phasor[self.first_wave :], out=waves_of_left)
+        for block in blocks:
+            if block not in self._blocks:
+                self._blocks[block] = _Right(self, block)
+            self._blocks[block].place(anchors)
 
-    def _place(self, anchors):
-        for group in self._groups:
-            group.place(self, anchors[self._number] - anchors[group.level])
-        (x, y), centre = anchors[self._number], anchors[0]
-        self.right[-1, 0::3] = x
-        self.right[-1, 1::3] = self._lines + y
-        if self._curved:
-            drop = -0.5 / EARTH_RADIUS
-            self.left[:, -4] = (self._lines + (x - centre[0])) ** 2
-            self.right[-4, 2::3] = drop
-            self.right[-1, 2::3] = drop * (self._lines + (y - centre[1])) ** 2
+    @property
+    def blocks(self):
+        """The blocks that have been filled."""
+        return set(self._blocks)
 
-    def shows_whole(self, waves, shift):
-        """Whether the windows of some waves are 1 on the whole level, and thus need no refilling when it moves."""
-        return self._reach[waves].min() * FADE_START >= self._lines[-1] + abs(shift)
+    def right(self, block):
+        """The right factor of a block that has been filled."""
+        return self._blocks[block].matrix
 
-    def window_x(self, waves, shift):
+    def _refill(self, waves, shift):
         """Put the windows of some waves into L's static part; `shift` is this level's centre from the windows'."""
-        values = window(np.abs(self._lines + shift)[:, None], self._reach[None, waves])
+        values = window(np.abs(self.lines + shift)[:, None], self.reach[None, waves])
         np.multiply(self._wave_x[:, waves], values, out=self._static_left[:, waves], casting="same_kind")
 
-    def window_y(self, waves, shift):
-        """Put the windows of some waves into R."""
-        values = window(np.abs(self._lines + shift)[None, :], self._reach[waves, None]).astype(np.float32)
-        weighted = (self._wave_y[waves] * values)[:, :, None] * self._weights[waves, None, :]
-        rows = self.right[: 2 * self.wave_count].reshape(self.wave_count, 2, -1)
+
+class _Right:
+    """The right factor R of one block of columns on one level."""
+
+    def __init__(self, level, block):
+        self._level, self._block = level, block
+        self._windows = _Windows(level, axis=1)
+        self._weights = block.weights(level.waves)[level.present].astype(np.complex64)  # (waves, columns)
+        self.matrix = np.zeros(
+            (2 * level.wave_count + level.base_rows, block.columns * len(level.lines)), np.float32
+        )
+
+    def place(self, anchors):
+        """Refill what changes when the anchors have moved."""
+        if not self._windows.place(anchors, self._refill):
+            return
+        level = self._level
+        still = Still(level.lines, anchors[level.number], anchors[0], level.curved)
+        one, x, x_squared = self._block.base(still)
+        self.matrix[-1], self.matrix[-2] = one.ravel(), x.ravel()
+        if level.curved:
+            self.matrix[-4] = x_squared.ravel()
+
+    def _refill(self, waves, shift):
+        """Put the windows of some waves into R; `shift` is the level's centre from the windows'."""
+        level = self._level
+        values = window(np.abs(level.lines + shift)[None, :], level.reach[waves, None]).astype(np.float32)
+        weighted = (level.wave_y[waves] * values)[:, :, None] * self._weights[waves, None, :]
+        rows = self.matrix[: 2 * level.wave_count].reshape(level.wave_count, 2, -1)
         flat = weighted.reshape(len(weighted), -1)
         rows[waves, 0], rows[waves, 1] = flat.real, -flat.imag
+
+
+class _Windows:
+    """What the windows of a factor were last filled for: along one axis, the waves grouped by their centre."""
+
+    def __init__(self, level, axis):
+        self._level, self._axis = level, axis
+        self._groups = _groups(level.window_levels)
+        self._placed = None
+
+    def place(self, anchors, refill) -> bool:
+        """Call refill(waves, shift) for those that change, `shift` being the level's centre from the windows', m.
+
+        Returns whether the anchors have moved at all.
+        """
+        placed = anchors.tobytes()
+        if placed == self._placed:
+            return False
+        self._placed = placed
+        for group in self._groups:
+            shift = (anchors[self._level.number] - anchors[group.level])[self._axis]
+            whole = self._shown_whole(group.waves, shift)
+            if group.shift != shift and not (whole and group.whole):
+                refill(group.waves, shift)
+            group.shift, group.whole = shift, whole
+        return True
+
+    def _shown_whole(self, waves, shift):
+        """Whether the windows of some waves are 1 on the whole level, and thus need no refilling when it moves."""
+        return self._level.reach[waves].min() * FADE_START >= self._level.lines[-1] + abs(shift)
 
 
 class _Group:
     """Waves of a level whose windows share one centre, a slice of its sorted waves, and where they stand now."""
 
     def __init__(self, level, waves):
-        self.level, self._waves = level, waves
-        self._shift = [None, None]
-        self._whole = [False, False]
-
-    def place(self, owner, shift):
-        """Refill the windows that change when the owner's centre is at `shift`, m, from the windows'."""
-        for axis, refill in enumerate((owner.window_x, owner.window_y)):
-            whole = owner.shows_whole(self._waves, shift[axis])
-            if self._shift[axis] != shift[axis] and not (whole and self._whole[axis]):
-                refill(self._waves, shift[axis])
-            self._shift[axis], self._whole[axis] = shift[axis], whole
+        self.level, self.waves = level, waves
+        self.shift, self.whole = None, False
 
 
 def _groups(levels_of_waves):
