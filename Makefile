@@ -24,12 +24,15 @@ TESTS ?=
 # Passed on to the benchmark, for example: make bench BENCH=--full
 BENCH ?=
 
-.PHONY: help demo test test-5.2 test-4.5 lint bench bench-without-blas zip clean environment-blender-5.2 environment-blender-4.5 \
+.PHONY: help demo test test-5.2 test-4.5 fuzz fuzz-5.2 fuzz-4.5 hard-cases lint bench bench-without-blas zip clean \
+	environment-blender-5.2 environment-blender-4.5 \
 	environment-lint
 
 help:
 	@echo 'make demo    render a still and a short film of the sea to out/'
 	@echo 'make test    run all tests on Blender 5.2 and on Blender 4.5'
+	@echo 'make fuzz    look for settings that break the sea, for hours, on both Blenders'
+	@echo 'make hard-cases  measure the hard cases again, into docs/hard-cases.md'
 	@echo 'make lint    check the style of the code'
 	@echo 'make bench   measure the time a frame takes (BENCH=--full for the whole table)'
 	@echo 'make bench-without-blas    the same, and with a NumPy without BLAS, which it compiles'
@@ -53,6 +56,20 @@ test-5.2: environment-blender-5.2
 
 test-4.5: environment-blender-4.5
 	$(BLENDER_4.5) tools/run_tests.py $(TESTS)
+
+# Examples of each property, and steps in Blender; another seed looks elsewhere.
+FUZZ_EXAMPLES ?= 10000
+FUZZ_STEPS ?= 2000
+FUZZ_SEED ?= 0
+
+fuzz: fuzz-5.2 fuzz-4.5
+
+fuzz-5.2 fuzz-4.5: fuzz-%: environment-blender-%
+	OCEAN_LOD_EXAMPLES=$(FUZZ_EXAMPLES) $(BLENDER_$*) tools/run_tests.py tests/hard_cases -k any_
+	$(BLENDER_$*) tools/fuzz_blender.py --steps $(FUZZ_STEPS) --seed $(FUZZ_SEED)
+
+hard-cases: environment-blender-5.2
+	$(BLENDER_5.2) tools/hard_cases_table.py
 
 lint: environment-lint
 	.env/lint/bin/python -m ruff check .
