@@ -7,6 +7,7 @@ interpreter lock, products spread over threads.
 """
 
 import functools
+import itertools
 import os
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -38,17 +39,23 @@ def multiply_without_blas(products) -> None:
 
 
 _PIECE_ROWS, _PIECE_COLUMNS = 128, 384
-"""A piece of a product for one thread, about a millisecond of work. For each row of `left`, einsum runs through
+"""A piece of a product for one thread, about; a millisecond of work. For each row of `left`, einsum runs through
 all of `right`: so many columns of it stay in a core's own cache, and shorter runs would slow its inner loop."""
 
 
 def _pieces(product):
     """A product cut up; every element is summed in the same order as in the whole."""
     rows, columns = product.out.shape
-    for row in range(0, rows, _PIECE_ROWS):
-        for column in range(0, columns, _PIECE_COLUMNS):
-            across, along = slice(row, row + _PIECE_ROWS), slice(column, column + _PIECE_COLUMNS)
+    for across in _even_slices(rows, _PIECE_ROWS):
+        for along in _even_slices(columns, _PIECE_COLUMNS):
             yield Product(product.left[across], product.right[:, along], product.out[across, along])
+
+
+def _even_slices(length, size):
+    """Equal slices of range(length), about `size` long: no remainder is left that is too short to be fast."""
+    count = max(1, round(length / size))
+    cuts = [length * number // count for number in range(count + 1)]
+    return [slice(start, stop) for start, stop in itertools.pairwise(cuts)]
 
 
 def _einsum(product):
