@@ -4,12 +4,7 @@
 import numpy as np
 
 from ocean_lod_addon.core.constants import GRAVITY
-from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.dispersion import Water, angular_frequency, coth_kh, group_speed, wavenumber
-from ocean_lod_addon.core.errors import OceanError
-from ocean_lod_addon.core.lod import Grid
-from ocean_lod_addon.core.ocean import Ocean, Surface
-from ocean_lod_addon.core.sea import Sea, WaveSystem
 from tests.hard_cases.catalogue import FLOAT64_ROUNDING, hard_case
 
 KH = np.geomspace(1e-8, 1e8, 2001)
@@ -73,26 +68,6 @@ def test_the_orbits_at_all_depths():
         naive = (np.exp(x) + np.exp(-x)) / (np.exp(x) - np.exp(-x))
     ours = coth_kh(x / DEPTH, DEPTH)
     return float(np.abs(naive / truth - 1.0).max()), float(np.abs(ours / truth - 1.0).max())
-
-
-@hard_case(
-    title="a storm over 5 cm of water",
-    truth="water cannot be thrown further sideways than some wave heights; such waves break: refused in one line",
-    naive="coth kh as it comes",
-    error="rms sideways motion over the wave height, 0 if refused",
-    bound=0.0,
-    because="refused, naming height and depth",
-)
-def test_waves_higher_than_the_water_is_deep():
-    system = WaveSystem(wind_speed=20.0)
-    sea = Sea(systems=(system,), finite_depth=True, depth=0.05)
-    waves = discretise(sea, 0.4)
-    naive = np.sqrt(np.sum((waves.orbit_ratio * waves.amplitude) ** 2) / np.sum(waves.amplitude**2))
-    try:
-        Surface(Ocean(sea, Grid(cells=8, levels=1)))
-    except OceanError as error:
-        return float(naive), 0.0 if "0.05 m of water" in str(error) else float("inf")
-    return float(naive), float(naive)
 
 
 @hard_case(
