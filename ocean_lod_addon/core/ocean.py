@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything one ocean is made from, and the surface evaluated from it."""
 
+import functools
 import hashlib
 from dataclasses import dataclass, field
 
@@ -12,6 +13,8 @@ from .framing import Framing
 from .kernel import FrameKernel
 from .lod import Grid, undisturbed_positions
 from .placement import Placement, place
+from .ripple_settings import Ripples
+from .ripples.bump import Bump
 from .sea import Sea
 from .slope_budget import unresolved_slope_variance
 from .waves import WaveSet
@@ -24,6 +27,7 @@ class Ocean:
     sea: Sea = field(default_factory=Sea)
     grid: Grid = field(default_factory=Grid)
     framing: Framing = field(default_factory=Framing)
+    ripples: Ripples = field(default_factory=Ripples)
 
     @property
     def fingerprint(self) -> str:
@@ -59,3 +63,10 @@ class Surface:
     def slope_variance(self) -> np.ndarray:
         """Unresolved slope variance (xx, yy, xy) of each vertex, (vertex_count, 3) float32; static in time."""
         return unresolved_slope_variance(self.ocean.sea, self.ocean.grid, self.waves)
+
+    @functools.cached_property
+    def bump(self) -> Bump | None:
+        """The ripples between the mesh and the BRDF, or None if they are off."""
+        if self.ocean.ripples.kind == "off":
+            return None
+        return Bump(self.ocean.ripples, self.ocean.sea, self.ocean.grid, self.waves)

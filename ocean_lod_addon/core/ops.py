@@ -33,6 +33,15 @@ class Ops(Protocol):
     def label(self, value, name: str) -> Any:
         """The value itself, named for whoever reads the node tree."""
 
+    def vector(self, x, y, z) -> Any:
+        """The vector (x, y, z): on arrays, the first axis counts x, y, z."""
+
+    def dot(self, a, b) -> Any:
+        """The scalar a . b of two vectors."""
+
+    def vector_multiply_add(self, a, factor, b) -> Any:
+        """a factor + b, of vectors a and b and a scalar factor, one vector math node."""
+
 
 class NumpyOps:
     """`Ops` on NumPy arrays, in the precision of `dtype`."""
@@ -72,3 +81,12 @@ class NumpyOps:
 
     def label(self, value, name):
         return value
+
+    def vector(self, x, y, z):
+        return np.stack(np.broadcast_arrays(x, y, z)).astype(self.dtype, copy=False)
+
+    def dot(self, a, b):
+        return (a * b).sum(axis=0)
+
+    def vector_multiply_add(self, a, factor, b):
+        return a * factor + b

@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 
 from .errors import OceanError
-from .parameters import Option, choice, number, switch, validate
+from .parameters import Option, choice, number, validate
 
 
 @dataclass(frozen=True)
@@ -61,13 +61,6 @@ class Ripples:
         "m",
         soft_maximum=100.0,
     )
-    gusts: bool = switch(
-        "Gusts", "Cat's paws: ripples are stronger here and weaker there, drifting with the wind", False
-    )
-    gust_strength: float = number(
-        "Gust Strength", "How much the slope variance of the ripples varies, relative to its mean", 0.5, 0.0, 1.0
-    )
-    gust_size: float = number("Gust Size", "Distance between gusts", 60.0, 1.0, 10e3, "m", soft_maximum=1000.0)
 
     def __post_init__(self):
         validate(self)
@@ -81,7 +74,3 @@ class Ripples:
     def texels(self) -> int:
         """Pixels along each side of an image."""
         return int(self.resolution)
-
-
-OFF = Ripples(kind="off")
-"""An ocean without ripples."""

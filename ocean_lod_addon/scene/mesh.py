@@ -8,6 +8,13 @@ from ..core.lod import Grid, topology
 SLOPE_VARIANCE = "ocean_slope_variance"
 """Point attribute, FLOAT_VECTOR: unresolved slope variance (xx, yy, xy) in the object's axes, for shading."""
 
+REST_POSITION = "ocean_rest_position"
+"""Point attribute, FLOAT2: undisturbed x, y in m, where ripples are looked up; only with ripples."""
+
+RIPPLE_AMPLITUDE = "ocean_ripple_amplitude_"
+"""Point attributes, FLOAT_COLOR, numbered from 0: what the mesh leaves of each band to the ripples, by fours."""
+
+_REST_ANCHORS = "ocean_lod_rest_anchors"
 _FINGERPRINT = "ocean_lod_fingerprint"
 
 
@@ -48,6 +55,45 @@ def write_positions(mesh, positions: np.ndarray) -> None:
 def write_slope_variance(mesh, variance: np.ndarray) -> None:
     """Set the slope variance attribute, (vertices, 3) float32."""
     mesh.attributes[SLOPE_VARIANCE].data.foreach_set("vector", variance.ravel())
+
+
+def ensure_ripple_attributes(mesh, bands: int) -> None:
+    """Attributes for ripples of which this many bands are shown by the mesh in part; not for handlers."""
+    wanted = {f"{RIPPLE_AMPLITUDE}{number}": "FLOAT_COLOR" for number in range(-(-bands // 4))}
+    wanted[REST_POSITION] = "FLOAT2"
+    remove_ripple_attributes(mesh, keep=wanted)
+    for name, kind in wanted.items():
+        if name not in mesh.attributes:
+            mesh.attributes.new(name, kind, "POINT")
+            mesh.pop(_REST_ANCHORS, None)
+            mesh.pop(_FINGERPRINT, None)
+
+
+def remove_ripple_attributes(mesh, keep=()) -> None:
+    """Remove what ripples need, but for the attributes called `keep`."""
+    for name in [attribute.name for attribute in mesh.attributes]:
+        if name not in keep and (name == REST_POSITION or name.startswith(RIPPLE_AMPLITUDE)):
+            mesh.attributes.remove(mesh.attributes[name])
+
+
+def write_ripple_amplitudes(mesh, amplitudes: np.ndarray) -> None:
+    """Set the amplitudes, (vertices, bands) float32, of the bands that the mesh shows in part."""
+    for number, first in enumerate(range(0, amplitudes.shape[1], 4)):
+        four = np.zeros((len(amplitudes), 4), np.float32)
+        part = amplitudes[:, first : first + 4]
+        four[:, : part.shape[1]] = part
+        mesh.attributes[f"{RIPPLE_AMPLITUDE}{number}"].data.foreach_set("color", four.ravel())
+
+
+def rest_positions_are_for(mesh, anchors: np.ndarray) -> bool:
+    """Whether the mesh holds the undisturbed positions for these level anchors."""
+    return mesh.get(_REST_ANCHORS) == anchors.tobytes().hex()
+
+
+def write_rest_positions(mesh, anchors: np.ndarray, positions: np.ndarray) -> None:
+    """Set the undisturbed positions, (vertices, 2), for these level anchors."""
+    mesh.attributes[REST_POSITION].data.foreach_set("vector", positions.astype(np.float32).ravel())
+    mesh[_REST_ANCHORS] = anchors.tobytes().hex()
 
 
 def read_positions(mesh) -> np.ndarray:

@@ -18,7 +18,7 @@ from ..core.material_settings import MaterialSettings
 from ..core.ocean import Ocean, Surface
 from ..core.ocean_time import sea_time
 from ..core.sea import Sea
-from . import clock, ocean_material, placing, properties
+from . import bump, clock, ocean_material, placing, properties
 from . import mesh as mesh_arrays
 
 _MODIFIER_NAME = "Ocean LOD"
@@ -55,6 +55,7 @@ def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"
         _add_deform_modifier(ob)
         _rebuild_and_move(ob, scene)
         ocean_material.apply(ob, scene)
+        _apply_ripples(ob, scene)
     except OceanError:
         bpy.data.meshes.remove(ob.data)
         raise
@@ -105,7 +106,9 @@ def update(ob, scene, depsgraph) -> None:
     ocean_material.set_surroundings(ob, depsgraph.scene_eval, ocean.sea)
     placement = placing.placement_of_frame(ob, surface, scene, depsgraph)
     if placement.sees_water:
-        _write_surface(ob, surface, placement, scene_sea_time(evaluated, scene))
+        time = scene_sea_time(evaluated, scene)
+        _write_surface(ob, surface, placement, time)
+        bump.update(ob, scene, surface, time, depsgraph)
 
 
 def update_reporting(ob, scene, depsgraph) -> None:
@@ -136,6 +139,7 @@ def refresh(ob, scene) -> None:
         return
     try:
         _rebuild_and_move(ob, scene)
+        _apply_ripples(ob, scene)
     except OceanError as error:
         _report(ob, error)
     else:
@@ -152,6 +156,7 @@ def _rebuild_and_move(ob, scene):
     ocean = read_ocean(ob, scene)
     if not mesh_arrays.has_geometry_for(ob.data, ocean.grid.vertex_count):
         mesh_arrays.build_topology(ob.data, ocean.grid)
+    bump.ensure_attributes(ob.data, ocean)
     surface = _surface(ocean)
     placement = surface.placement(placing.camera_view(ob, scene))
     _write_surface(ob, surface, placement, scene_sea_time(ob, scene))
@@ -184,8 +189,17 @@ def _write_surface(ob, surface, placement, time):
         )
     if mesh_arrays.static_fingerprint(mesh) != ocean.fingerprint:
         mesh_arrays.write_slope_variance(mesh, surface.slope_variance())
+        bump.write_static(mesh, surface)
         mesh_arrays.set_static_fingerprint(mesh, ocean.fingerprint)
     with _evaluation:
         positions = _buffer(surface.vertex_count)
         surface.positions(time, placement, positions)
         mesh_arrays.write_positions(mesh, positions)
+    bump.write_placement(mesh, surface, placement)
+
+
+def _apply_ripples(ob, scene):
+    """Bring images and nodes of the ripples in step with the settings, once there is a material."""
+    material = ocean_material.own_material(ob)
+    if material is not None:
+        bump.apply(ob, scene, material, _surface(read_ocean(ob, scene)), scene_sea_time(ob, scene))

@@ -14,6 +14,7 @@ from ..core.ocean import Ocean
 from ..core.ocean_time import OceanTime, loop_period
 from ..core.parameters import parameters_of
 from ..core.presets import Preset
+from ..core.ripple_settings import Ripples
 from ..core.sea import Sea, WaveSystem
 from . import rna
 
@@ -91,6 +92,10 @@ FramingProperties = rna.property_group(
     "OCEAN_LOD_FramingProperties",
     rna.annotations(Framing, _surface_changed, not_animatable=parameters_of(Framing)),
 )
+RippleProperties = rna.property_group(
+    "OCEAN_LOD_RippleProperties",
+    rna.annotations(Ripples, _surface_changed, not_animatable=parameters_of(Ripples)),
+)
 TimeProperties = rna.property_group("OCEAN_LOD_TimeProperties", rna.annotations(OceanTime, _surface_changed))
 MaterialProperties = rna.property_group(
     "OCEAN_LOD_MaterialProperties", rna.annotations(MaterialSettings, _material_changed)
@@ -104,6 +109,7 @@ OceanProperties = rna.property_group(
         "sea": bpy.props.PointerProperty(type=SeaProperties),
         "grid": bpy.props.PointerProperty(type=GridProperties),
         "framing": bpy.props.PointerProperty(type=FramingProperties),
+        "ripples": bpy.props.PointerProperty(type=RippleProperties),
         "time": bpy.props.PointerProperty(type=TimeProperties),
         "material": bpy.props.PointerProperty(type=MaterialProperties),
     },
@@ -114,6 +120,7 @@ _CLASSES = (
     SeaProperties,
     GridProperties,
     FramingProperties,
+    RippleProperties,
     TimeProperties,
     MaterialProperties,
     OceanProperties,

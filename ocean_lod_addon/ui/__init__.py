@@ -3,9 +3,16 @@
 
 import bpy
 
-from . import framing, menus, operators, panels, preset_operators, readback_cache
+from . import framing, menus, operators, panels, preset_operators, readback_cache, ripples
 
-_CLASSES = (*operators.CLASSES, *preset_operators.CLASSES, *menus.CLASSES, *panels.CLASSES, *framing.CLASSES)
+_CLASSES = (
+    *operators.CLASSES,
+    *preset_operators.CLASSES,
+    *menus.CLASSES,
+    *panels.CLASSES,
+    *framing.CLASSES,
+    *ripples.CLASSES,
+)
 
 
 def register():

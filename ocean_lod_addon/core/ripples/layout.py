@@ -21,6 +21,9 @@ WAVES_PER_TILE = 8
 
 BANDS_PER_IMAGE = 2
 
+SLACK = 0.12
+"""A band more is worth this share of its width: without it, the others are that much wider together."""
+
 
 @dataclass(frozen=True)
 class Band:
@@ -50,8 +53,8 @@ def band_ratio(texels: int) -> float:
 
 
 def bands_between(shortest: float, longest: float, ratio: float) -> tuple[Band, ...]:
-    """Equal bands on a logarithmic scale from `longest` down to `shortest`, each of at most `ratio`."""
-    count = math.ceil(math.log(longest / shortest) / math.log(ratio) - 1e-9)
+    """Equal bands on a logarithmic scale from `longest` down to `shortest`, each of `ratio` or hardly more."""
+    count = max(1, math.ceil(math.log(longest / shortest) / math.log(ratio) - SLACK))
     step = (shortest / longest) ** (1.0 / count)
     edges = [longest * step**number for number in range(count)] + [shortest]
     return tuple(Band(low, high) for high, low in itertools.pairwise(edges))
@@ -73,3 +76,12 @@ def ripple_tiles(settings: Ripples, shortest_resolved: float) -> tuple[Tile, ...
     return tuple(
         Tile(pair[-1].shortest * settings.texels / TEXELS_PER_WAVE, settings.texels, pair) for pair in pairs
     )
+
+
+def random_tiles(settings: Ripples, shortest_resolved: float) -> tuple[Tile, ...]:
+    """The one image of random slopes, just below the waves of the mesh."""
+    longest = min(settings.longest_wavelength, shortest_resolved)
+    ratio = band_ratio(settings.texels)
+    shortest = longest / ratio**BANDS_PER_IMAGE
+    bands = bands_between(shortest, longest, ratio)
+    return (Tile(shortest * settings.texels / TEXELS_PER_WAVE, settings.texels, bands),)

@@ -5,14 +5,15 @@ All vectors are in the object's axes, z up; slopes are per undisturbed metre. Tw
 shading point: u, from the point towards the viewer, and v, to the left of it.
 
 A pixel is a patch of water, long along u and narrow along v. Slopes along u are made by waves that run along u,
-slopes along v by waves that run along v, so both are faded by their own side of the patch, and what is faded goes
-to the BRDF: with F = diag(f_u, f_v) a band of slope variance B shows F B F and leaves B - F B F.
+slopes along v by waves that run along v, so both are faded by their own side of the patch. With F = diag(f_u, f_v)
+a band of slope variance B shows F B F; what the mesh does not show and no band either is left to the BRDF.
 """
 
 from typing import Any, NamedTuple
 
-FOOTPRINT = 0.4
-"""Standard deviation of what a pixel averages over, in pixels: between a box and the filter of Cycles."""
+FOOTPRINT = 0.3
+"""Standard deviation of what a pixel averages over, in pixels. A wave of three pixels keeps half its variance, one
+of one pixel 5 %."""
 
 GRAZING_COSINE = 1e-3
 """Least cosine of the angle of view: smooth shading bends normals of visible points beyond edge-on."""
@@ -23,66 +24,97 @@ HORIZONTAL_FLOOR = 1e-6
 VISIBLE_SHARE = 0.98
 """A slope reaches at most this share of the slope at which it is seen edge-on."""
 
-SHOWN_FLOOR = 1e-12
-"""Least variance of the shown slopes along u: a covariance is divided by it."""
+VARIANCE_FLOOR = 1e-12
+"""Least variance of slopes along u: deviations and covariances are divided by it."""
 
 _MILLS_0 = 0.7978845608028654  # sqrt(2 / pi)
 _MILLS_1, _MILLS_2 = 0.77551088, 0.25209983
 
 
-class View(NamedTuple):
-    """How a shading point is seen: the unit vector u, the slope along u at which a facet is seen edge-on, and the
-    variances of a pixel's footprint along u and v in m^2."""
+class Sight(NamedTuple):
+    """The slope along u at which a facet is seen edge-on, and the variances of a pixel's footprint in m^2."""
 
-    u_x: Any
-    u_y: Any
     edge_on: Any
     footprint_u: Any
     footprint_v: Any
 
 
-class Tensor(NamedTuple):
-    """Variances and covariance of two components of the slope."""
+class TensorAxes(NamedTuple):
+    """Vectors that turn tensors: (xx, yy, xy) . of_uu is the component uu, and so on; the tensor (xx, yy, xy) is
+    uu times `uu`, plus vv times `vv`, plus uv times `uv`."""
 
-    aa: Any
-    bb: Any
-    ab: Any
-
-
-class BandLook(NamedTuple):
-    """What a shading point sees of a band: slopes along u and v, their variances, and those left to the BRDF."""
-
-    slope_u: Any
-    slope_v: Any
-    shown: Tensor
-    faded: Tensor
+    of_uu: Any
+    of_vv: Any
+    of_uv: Any
+    uu: Any
+    vv: Any
+    uv: Any
 
 
-def view_of(ops, to_viewer, normal, distance, pixel_angle, pixel_size) -> View:
-    """`to_viewer` and `normal` (of the mesh) are unit vectors as (x, y, z), `distance` from the camera is in m.
+class Bump(NamedTuple):
+    """Sums over bands: vectors whose x, y are slopes faded as slopes along u, and as slopes along v; and slope
+    variances (xx, yy, xy) faded as the variance along u, along v, and the covariance."""
 
-    A pixel is distance pixel_angle + pixel_size wide: the angle in rad of a perspective camera, the size in m of
-    an orthographic one.
+    slopes_u: Any
+    slopes_v: Any
+    variance_uu: Any
+    variance_vv: Any
+    variance_uv: Any
+
+
+class Shown(NamedTuple):
+    """Slopes of the bump along u and v, and their variances and covariance."""
+
+    u: Any
+    v: Any
+    uu: Any
+    vv: Any
+    uv: Any
+
+
+def view_axes(ops, to_viewer):
+    """The unit vectors u and v for a unit vector to the viewer, (x, y, z)."""
+    v_x, v_y, _ = to_viewer
+    horizontal = _horizontal(ops, to_viewer)
+    c, s = (v_x + HORIZONTAL_FLOOR) / horizontal, v_y / horizontal
+    return ops.vector(c, s, 0.0), ops.vector(-1.0 * s, c, 0.0)
+
+
+def _horizontal(ops, to_viewer):
+    """Length of the horizontal part of the vector to the viewer."""
+    v_x, v_y, _ = to_viewer
+    return ops.sqrt(v_x * v_x + v_y * v_y) + HORIZONTAL_FLOOR
+
+
+def sight_of(ops, to_viewer, normal, pixel_width) -> Sight:
+    """How a pixel `pixel_width` wide (m, across the view) covers water of the normal `normal`.
+
+    `to_viewer` and `normal` (of the mesh) are unit vectors, (x, y, z).
     """
     v_x, v_y, v_z = to_viewer
     n_x, n_y, n_z = normal
-    horizontal = ops.sqrt(v_x * v_x + v_y * v_y) + HORIZONTAL_FLOOR
-    u_x, u_y = (v_x + HORIZONTAL_FLOOR) / horizontal, v_y / horizontal
     cosine = ops.maximum(v_x * n_x + v_y * n_y + v_z * n_z, GRAZING_COSINE)
     cosine = ops.label(cosine / ops.maximum(n_z, GRAZING_COSINE), "cosine of view over n_z")
-    edge_on = ops.label(cosine / horizontal, "edge-on slope")
-    across = ops.multiply_add(distance, pixel_angle, pixel_size) * FOOTPRINT
+    across = pixel_width * FOOTPRINT
     along = across / cosine
-    return View(
-        u_x,
-        u_y,
-        edge_on,
-        ops.label(along * along, "footprint along view"),
-        ops.label(across * across, "footprint across view"),
+    return Sight(cosine / _horizontal(ops, to_viewer), along * along, across * across)
+
+
+def tensor_axes(ops, c, s) -> TensorAxes:
+    """For u = (c, s) and v = (-s, c)."""
+    cc, ss, cs = c * c, s * s, c * s
+    double = 2.0 * cs
+    return TensorAxes(
+        ops.vector(cc, ss, double),
+        ops.vector(ss, cc, -1.0 * double),
+        ops.vector(-1.0 * cs, cs, cc - ss),
+        ops.vector(cc, ss, cs),
+        ops.vector(ss, cc, -1.0 * cs),
+        ops.vector(-1.0 * double, double, cc - ss),
     )
 
 
-def blend_weight(ops, t_x, t_y):
+def blend_weight(t_x, t_y):
     """Weight of a grid's cell at the place (t_x, t_y), 0 to 1, in it, not normalised: 0 on its border."""
     return t_x * (1.0 - t_x) * (t_y * (1.0 - t_y))
 
@@ -93,67 +125,37 @@ def blend_normaliser(ops, weights):
     return 1.0 / ops.sqrt(ops.multiply_add(first, first, ops.multiply_add(second, second, third * third)))
 
 
-def kept_variance(ops, footprint, wavenumber):
-    """Share of a band's slope variance that a pixel keeps: 1 / (1 + (k^2 footprint)^2), footprint in m^2."""
-    squared = footprint * wavenumber**2
-    return 1.0 / ops.multiply_add(squared, squared, 1.0)
+def fade(ops, footprint, squared_wavenumber, amplitude):
+    """What a pixel keeps of a band's slopes: amplitude / (1 + k^2 footprint); footprint in m^2, k in rad/m."""
+    return amplitude / ops.multiply_add(footprint, squared_wavenumber, 1.0)
 
 
-def along_view(ops, view: View, x, y):
-    """Components (u, v) of a horizontal vector."""
-    return ops.multiply_add(x, view.u_x, y * view.u_y), ops.multiply_add(y, view.u_x, -1.0 * (x * view.u_y))
+def add_band(ops, bump: Bump, f_u, f_v, slopes, variance) -> Bump:
+    """`bump` and one more band, of which f_u of the slopes along u and f_v of those along v are shown.
+
+    `slopes` and `variance` (xx, yy, xy) are vectors, of the whole band; the z of slopes is of no meaning.
+    """
+    terms = ((slopes, f_u), (slopes, f_v), (variance, f_u * f_u), (variance, f_v * f_v), (variance, f_u * f_v))
+    sums = zip(terms, bump, strict=True)
+    return Bump(*(ops.vector_multiply_add(vector, factor, total) for (vector, factor), total in sums))
 
 
-def from_view(ops, view: View, u, v):
-    """Components (x, y) of a horizontal vector."""
-    return ops.multiply_add(u, view.u_x, -1.0 * (v * view.u_y)), ops.multiply_add(u, view.u_y, v * view.u_x)
-
-
-def tensor_along_view(ops, view: View, tensor: Tensor) -> Tensor:
-    """A tensor of the axes x, y in the axes u, v."""
-    c, s = view.u_x, view.u_y
-    cc, ss, cs = c * c, s * s, c * s
-    double = 2.0 * cs
-    xx, yy, xy = tensor
-    return Tensor(
-        ops.multiply_add(cc, xx, ops.multiply_add(ss, yy, double * xy)),
-        ops.multiply_add(ss, xx, ops.multiply_add(cc, yy, -1.0 * (double * xy))),
-        ops.multiply_add(cs, yy - xx, (cc - ss) * xy),
+def shown_along_view(ops, u, v, axes: TensorAxes, bump: Bump) -> Shown:
+    """The bump in the axes u and v."""
+    return Shown(
+        ops.dot(bump.slopes_u, u),
+        ops.dot(bump.slopes_v, v),
+        ops.label(ops.dot(bump.variance_uu, axes.of_uu), "shown variance along view"),
+        ops.dot(bump.variance_vv, axes.of_vv),
+        ops.dot(bump.variance_uv, axes.of_uv),
     )
 
 
-def tensor_from_view(ops, view: View, tensor: Tensor) -> Tensor:
-    """A tensor of the axes u, v in the axes x, y."""
-    return tensor_along_view(ops, view._replace(u_y=-1.0 * view.u_y), tensor)
-
-
-def band_look(ops, view: View, wavenumber: float, tensor: Tensor, share, slope_x, slope_y) -> BandLook:
-    """A band of this middle wavenumber (rad/m) and slope variance, of which the mesh leaves `share` to the bump.
-
-    The slopes are those of the whole band.
-    """
-    kept_u = kept_variance(ops, view.footprint_u, wavenumber)
-    kept_v = kept_variance(ops, view.footprint_v, wavenumber)
-    gain_u, gain_v = ops.sqrt(kept_u * share), ops.sqrt(kept_v * share)
-    s_u, s_v = along_view(ops, view, slope_x, slope_y)
-    uu, vv, uv = tensor_along_view(ops, view, tensor)
-    whole = Tensor(uu * share, vv * share, uv * share)
-    shown = Tensor(whole.aa * kept_u, whole.bb * kept_v, uv * (gain_u * gain_v))
-    faded = Tensor(*(all_of_it - part for all_of_it, part in zip(whole, shown, strict=True)))
-    return BandLook(s_u * gain_u, s_v * gain_v, shown, faded)
-
-
-def add_looks(looks) -> BandLook:
-    """Bands are independent: slopes and variances add."""
-    total = looks[0]
-    for look in looks[1:]:
-        total = BandLook(
-            total.slope_u + look.slope_u,
-            total.slope_v + look.slope_v,
-            Tensor(*(a + b for a, b in zip(total.shown, look.shown, strict=True))),
-            Tensor(*(a + b for a, b in zip(total.faded, look.faded, strict=True))),
-        )
-    return total
+def left_to_brdf(ops, axes: TensorAxes, unresolved, shown: Shown):
+    """Slope variance (xx, yy, xy) of what neither mesh nor bump shows: `unresolved` is what the mesh does not."""
+    for tensor, component in ((axes.uu, shown.uu), (axes.vv, shown.vv), (axes.uv, shown.uv)):
+        unresolved = ops.vector_multiply_add(tensor, -1.0 * component, unresolved)
+    return unresolved
 
 
 def mills_ratio_fit(ops, a):
@@ -161,32 +163,33 @@ def mills_ratio_fit(ops, a):
     return _MILLS_0 * ops.exp(a * ops.multiply_add(a, -_MILLS_2, -_MILLS_1))
 
 
-def visible_slopes(ops, view: View, slope_u, slope_v, shown: Tensor, rest_variance_u):
+def visible_slopes(ops, shown: Shown, edge_on, unresolved_uu):
     """The shown slopes (u, v) as a viewer meets them: facets that lean towards the viewer look larger.
 
     Of slopes along u of variance s^2, with BRDF facets of variance r^2 on them, the viewer sees the density
     p(s_u) C(e - s_u), with C the mean projected area of the facets and e the slope seen edge-on (THEORY section
-    6: the (1 + Lambda) of a Gaussian). With a = e / sqrt(s^2 + r^2), lambda = phi/Phi and h = 1 / (a + lambda),
-    its mean is -s^2 h / sqrt(s^2 + r^2), its variance s^2 [1 + s^2 / (s^2 + r^2) h (lambda - h)]. A bump map
-    shows every facet the same size; mapping its slopes to this mean and variance makes up for it, and turns no
-    facet away.
+    6: the (1 + Lambda) of a Gaussian). With t^2 = s^2 + r^2, a = e / t, lambda = phi/Phi and h = 1 / (a + lambda),
+    its mean is -s^2 h / t and its variance s^2 [1 + s^2 / t^2 h (lambda - h)]. A bump map shows every facet the
+    same size; mapping its slopes to this mean and variance makes up for it, and turns no facet away.
+
+    `unresolved_uu` is the slope variance along u that the mesh does not show: t^2.
     """
-    total = ops.maximum(shown.aa + rest_variance_u, SHOWN_FLOOR)
+    total = ops.maximum(ops.maximum(unresolved_uu, shown.uu), VARIANCE_FLOOR)
     deviation = ops.sqrt(total)
-    a = view.edge_on / deviation
+    a = edge_on / deviation
     mills = mills_ratio_fit(ops, a)
     h = 1.0 / (a + mills)
-    share = shown.aa / total
+    share = shown.uu / total
     narrowing = ops.sqrt(ops.multiply_add(share * h, mills - h, 1.0))
     mean = -1.0 * (share * deviation * h)
-    seen = ops.minimum(ops.multiply_add(slope_u, narrowing, mean), view.edge_on * VISIBLE_SHARE)
+    seen = ops.minimum(ops.multiply_add(shown.u, narrowing, mean), edge_on * VISIBLE_SHARE)
     seen = ops.label(seen, "visible slope along view")
-    follows = shown.ab / ops.maximum(shown.aa, SHOWN_FLOOR)
-    return seen, ops.label(ops.multiply_add(follows, seen - slope_u, slope_v), "visible slope across view")
+    follows = shown.uv / ops.maximum(shown.uu, VARIANCE_FLOOR)
+    return seen, ops.label(ops.multiply_add(follows, seen - shown.u, shown.v), "visible slope across view")
 
 
-def bumped_normal(ops, normal, slope_x, slope_y):
-    """The mesh's normal (x, y, z) with slopes added to its own, not normalised: N - N_z (s_x, s_y, 0)."""
-    n_x, n_y, n_z = normal
+def bumped_normal(ops, u, v, normal, n_z, slope_u, slope_v):
+    """The mesh's normal, a vector, with slopes added to its own, not normalised: N - N_z (s_x, s_y, 0)."""
     opposite = -1.0 * n_z
-    return ops.multiply_add(opposite, slope_x, n_x), ops.multiply_add(opposite, slope_y, n_y), n_z
+    along = ops.vector_multiply_add(u, slope_u * opposite, normal)
+    return ops.vector_multiply_add(v, slope_v * opposite, along)

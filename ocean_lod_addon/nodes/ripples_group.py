@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Node group "Ocean LOD Ripples": the bump level of one ocean.
+
+Per image of slopes, three looks at it: the water is covered by three square grids, shifted against each other by
+a third of a cell, and every cell looks at a place of its own in the image. Their weights fade to 0 at the border
+of a cell, so that no border shows, and are normalised so that the variance is the same everywhere; where one grid
+has a border, another has not. So the image never repeats.
+
+Per band of waves, what `core.ripples.shading` says: the amplitude that the mesh leaves to it, faded by the size of
+a pixel. What neither mesh nor bump shows is left to the BRDF.
+"""
+
+import hashlib
+from collections.abc import Sequence
+
+from ..core.ripples import shading
+from ..core.ripples.bump import BumpLayout
+from . import ripple_parts as parts
+from .graph import Graph, GraphOps, Vector
+from .groups import GroupRecipe, Socket, use_group
+from .sockets import NORMAL, SLOPE_VARIANCE
+
+REST_POSITION_ATTRIBUTE = "ocean_rest_position"
+"""Point attribute (FLOAT2) of the mesh: undisturbed x, y in m."""
+
+AMPLITUDE_ATTRIBUTE = "ocean_ripple_amplitude_"
+"""Point attributes (FLOAT_COLOR) of the mesh, numbered from 0: the amplitudes that the mesh leaves to the bands
+that it shows in part, four at a time."""
+
+BANDS_PER_ATTRIBUTE = 4
+
+WAVE_HEIGHT = Socket(
+    "Wave Height", "FLOAT", "Significant wave height: random ripples are stronger on high water", 1.0, 0.0, 100.0
+)
+
+GRIDS = 3
+
+_LEAST_WAVE_HEIGHT = 1e-3  # m; a flat sea has no high water
+
+
+def variance_socket(band: int) -> Socket:
+    """The slope variance of band number `band`, an input that follows the sea state."""
+    return Socket(
+        f"Variance {band + 1}",
+        "VECTOR",
+        "Slope variance of this band of waves as (xx, yy, xy). The first band has the longest waves",
+        hide_value=True,
+    )
+
+
+class _Builder:
+    """Fills the group's graph for one layout."""
+
+    def __init__(self, graph: Graph, layout: BumpLayout, images: Sequence):
+        self.graph, self.ops, self.layout, self.images = graph, GraphOps(graph), layout, images
+
+    def build(self):
+        graph, layout = self.graph, self.layout
+        with graph.section("How the point is seen"):
+            view = use_group(graph, parts.VIEW, {})
+        with graph.section("Left by the mesh"):
+            rest = graph.output_of(self.attribute(REST_POSITION_ATTRIBUTE), "Vector")
+            amplitudes = self.amplitudes()
+        sums = {socket.name: (0.0, 0.0, 0.0) for socket in parts.SUMS}
+        numbered = iter(enumerate(zip(layout.bands, amplitudes, strict=True)))
+        for number in range(len(layout.tiles)):
+            with graph.section(f"Image {number + 1}"):
+                slopes_of_bands = self.slopes(number, rest)
+            with graph.section(f"Bands of image {number + 1}"):
+                for slopes in slopes_of_bands:
+                    index, (band, amplitude) = next(numbered)
+                    own = {
+                        parts.WAVENUMBER_2.name: band.middle_wavenumber**2,
+                        parts.AMPLITUDE.name: amplitude,
+                        parts.SLOPES.name: slopes,
+                        parts.VARIANCE.name: graph.input(variance_socket(index).name),
+                    }
+                    sums = use_group(graph, parts.BAND, view | own | sums)
+        with graph.section("Surface"):
+            unresolved = {SLOPE_VARIANCE.name: graph.input(SLOPE_VARIANCE.name)}
+            surface = use_group(graph, parts.SURFACE, view | unresolved | sums)
+        for name, value in surface.items():
+            graph.output(name, value)
+
+    def attribute(self, name: str):
+        return self.graph.node("ShaderNodeAttribute", name, attribute_name=name, attribute_type="GEOMETRY")
+
+    def amplitudes(self):
+        """The amplitude of each band that the mesh leaves to the bump."""
+        graph, count = self.graph, self.layout.handed_over
+        result = []
+        for first in range(0, count, BANDS_PER_ATTRIBUTE):
+            attribute = self.attribute(f"{AMPLITUDE_ATTRIBUTE}{first // BANDS_PER_ATTRIBUTE}")
+            result += graph.output_of(attribute, "Color").components()
+            result.append(graph.output_of(attribute, "Alpha"))
+        result = result[:count] + [1.0] * (len(self.layout.bands) - count)
+        if self.layout.kind == "random":
+            factor = self.on_high_water()
+            result = [amplitude * factor for amplitude in result]
+        return result
+
+    def on_high_water(self):
+        """Amplitude of random ripples over its mean: the variance is 1 + z / wave height, whose mean is 1."""
+        graph, ops = self.graph, self.ops
+        z = graph.output_of(graph.node("ShaderNodeTexCoord"), "Object").components()[2]
+        height = ops.maximum(graph.input(WAVE_HEIGHT.name), _LEAST_WAVE_HEIGHT)
+        return graph.label(ops.sqrt(ops.maximum(z / height + 1.0, 0.0)), "stronger on high water")
+
+    def slopes(self, number: int, rest) -> list[Vector]:
+        """Slopes of each band of image `number`, as vectors (x, y, of no meaning)."""
+        graph, ops = self.graph, self.ops
+        looks = [self.look(number, grid, rest) for grid in range(GRIDS)]
+        weights = [weight for _, weight in looks]
+        color = graph.output_of(looks[0][0], "Color") * weights[0]
+        for image, weight in looks[1:]:
+            color = ops.vector_multiply_add(graph.output_of(image, "Color"), weight, color)
+        normaliser = graph.label(shading.blend_normaliser(ops, weights), "1 / weights")
+        color = graph.label(color * normaliser, "slopes")
+        if len(self.layout.tiles[number].bands) == 1:
+            return [color]
+        alpha = graph.output_of(looks[0][0], "Alpha") * weights[0]
+        for image, weight in looks[1:]:
+            alpha = ops.multiply_add(graph.output_of(image, "Alpha"), weight, alpha)
+        return [color, graph.vector(color.components()[2], alpha * normaliser, 0.0)]
+
+    def look(self, number: int, grid: int, rest):
+        """The image node of image `number` as grid number `grid` sees it, and the weight of what it sees."""
+        graph = self.graph
+        inputs = {
+            parts.REST_POSITION.name: rest,
+            parts.TILE_SIZE.name: self.layout.tiles[number].size,
+            parts.SHIFT.name: (grid / GRIDS, grid / GRIDS, GRIDS * number + grid + 0.5),
+        }
+        look = use_group(graph, parts.LOOK, inputs)
+        image = graph.node(
+            "ShaderNodeTexImage",
+            f"Slopes {number + 1}",
+            {"Vector": look[parts.PLACE.name]},
+            image=self.images[number],
+            interpolation="Linear",
+            extension="REPEAT",
+        )
+        return image, look[parts.WEIGHT.name]
+
+
+def ripples_recipe(name: str, layout: BumpLayout, images: Sequence) -> GroupRecipe:
+    """The recipe of the group called `name`, for this layout and an image for each of its tiles."""
+    variances = tuple(variance_socket(index) for index in range(len(layout.bands)))
+    extra = (WAVE_HEIGHT,) if layout.kind == "random" else ()
+    description = repr((layout, [image.name for image in images]))
+    return GroupRecipe(
+        name,
+        "1 " + hashlib.blake2b(description.encode(), digest_size=8).hexdigest(),
+        inputs=(SLOPE_VARIANCE, *variances, *extra),
+        outputs=(SLOPE_VARIANCE, NORMAL),
+        build=lambda graph: _Builder(graph, layout, images).build(),
+        needs=(parts.VIEW, parts.LOOK, parts.BAND, parts.SURFACE),
+    )
