@@ -10,14 +10,11 @@ from ..core import presets
 from ..core.errors import OceanError
 from ..core.lod import Grid
 from ..core.sea import LARGEST_SEED
-from ..core.shot_fit import fit, frame_needs
+from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, frame_needs
 from .arguments import FrameRange, frame_range, resolution, whole_number
 
 NAME = "render"
 HELP = "Render a preset's shot, or an existing .blend file, to PNG, EXR or MP4."
-
-_PIXELS_PER_CELL = 7.0
-_HIGHEST_WAVE = 20.0  # m; the plane reaches past the horizon of such a crest
 
 
 @dataclass(frozen=True)
@@ -130,7 +127,7 @@ def _build(options):
     shot_scene.build(scene, preset.shot)
     bpy.context.view_layer.update()
     needs = frame_needs(placing.view_of(scene.camera, scene), scene.render.resolution_x)
-    grid = fit(Grid(), [needs], _PIXELS_PER_CELL, _HIGHEST_WAVE)
+    grid = fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE)
     sea = presets.with_seed(preset.sea, options.seed)
     scene.collection.objects.link(ocean_object.create(scene, sea, grid, preset.material))
     return scene

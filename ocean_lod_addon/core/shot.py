@@ -4,7 +4,12 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
+from .camera_view import CameraView
 from .parameters import number, validate
+
+_SENSOR_WIDTH = 36.0  # mm
 
 
 @dataclass(frozen=True)
@@ -42,3 +47,11 @@ class Shot:
 
     def __post_init__(self):
         validate(self)
+
+    def view(self, width: int, height: int) -> CameraView:
+        """What the camera sees in a picture of width x height pixels; the wider side shows the whole sensor."""
+        half = 0.5 * _SENSOR_WIDTH / self.focal_length / max(width, height)
+        cos, sin = math.cos(self.camera_pitch), math.sin(self.camera_pitch)
+        axes = np.array([[0.0, -1.0, 0.0], [sin, 0.0, cos], [cos, 0.0, -sin]])
+        extent = (-half * width, half * width, -half * height, half * height)
+        return CameraView(np.array([0.0, 0.0, self.camera_height]), axes, extent)

@@ -17,6 +17,12 @@ _SMALLEST_CELL = 0.002  # m; shorter waves are ripples
 _LEAST_REACH = 5e3  # m, so that an edge close by never shows from a low camera
 _HIDDEN_BEYOND = 1.2  # reach of the plane over the distance at which the highest crest sinks below the horizon
 
+PIXELS_PER_CELL = 7.0
+"""Of the command line's own shots: a good picture at bearable cost."""
+
+HIGHEST_WAVE = 20.0  # m
+"""Of the command line's own shots: the plane reaches past the horizon of such a crest."""
+
 
 @dataclass(frozen=True)
 class ShotNeeds:
@@ -70,16 +76,19 @@ def fit(grid: Grid, needs: list[ShotNeeds], pixels_per_cell: float, highest_wave
     return replace(grid, cell_size=cell_size, cells=cells, levels=min(max(levels, 1), _MOST_LEVELS))
 
 
-_CURVATURE_PIXELS = 2.0
+CURVATURE_PIXELS = 2.0
+"""The Earth's curvature shows where it moves the horizon by this many pixels."""
 
 
-def curvature_shows(needs: list[ShotNeeds], reach: float) -> bool:
-    """Whether the Earth's curvature moves the horizon by two pixels or more in some frame of the shot.
+def curvature_pixels(need: ShotNeeds, reach: float) -> float:
+    """By how many pixels the Earth's curvature moves the horizon.
 
     A flat plane's edge at the distance `reach` (m) lies h / reach below the horizontal, the true horizon
     sqrt(2 h / R).
     """
-    return any(
-        math.sqrt(2.0 * need.height / EARTH_RADIUS) - need.height / reach >= _CURVATURE_PIXELS * need.pixel_angle
-        for need in needs
-    )
+    return (math.sqrt(2.0 * need.height / EARTH_RADIUS) - need.height / reach) / need.pixel_angle
+
+
+def curvature_shows(needs: list[ShotNeeds], reach: float) -> bool:
+    """Whether the Earth's curvature shows in some frame of the shot."""
+    return any(curvature_pixels(need, reach) >= CURVATURE_PIXELS for need in needs)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`explain`: which effects a shot calls for, and why."""
+
+import json
+
+from ..core import presets
+from ..core.discretise import discretise
+from ..core.effects import Effects
+from ..core.framing import Framing
+from ..core.lod import Grid
+from ..core.plan import Facts, Plan, Settings, decide
+from ..core.ripple_settings import Ripples
+from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, frame_needs
+from .arguments import real_number, resolution
+from .setting_options import add_setting_options, given_settings
+
+NAME = "explain"
+HELP = "Say which effects a shot calls for, and why."
+
+
+def add_arguments(parser) -> None:
+    """Declare the command's arguments."""
+    parser.add_argument("--preset", default="moderate", help="preset, or preset .json file (%(default)s)")
+    parser.add_argument("--engine", choices=("CYCLES", "EEVEE"), default="CYCLES", help="engine (%(default)s)")
+    parser.add_argument(
+        "--resolution", type=resolution, default=(960, 540), metavar="WxH", help="pixels (960x540)"
+    )
+    parser.add_argument(
+        "--shutter",
+        type=real_number(0.0, 10.0),
+        default=0.0,
+        metavar="S",
+        help="seconds that the shutter is open, with motion blur (%(default)g: none)",
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON")
+    add_setting_options(parser.add_argument_group("effects"), Effects)
+
+
+def run(options) -> None:
+    """Print the plan of a preset's shot."""
+    plan = preset_plan(options)
+    if options.json:
+        print(json.dumps(plan.to_json(), indent=2))
+    else:
+        print_plan(plan)
+
+
+def preset_plan(options) -> Plan:
+    """The plan for a preset's first shot, on the plane that `render` would make for it."""
+    preset = presets.load(options.preset)
+    needs = frame_needs(preset.shot.view(*options.resolution), options.resolution[0])
+    settings = Settings(
+        preset.sea,
+        fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE),
+        Framing(),
+        preset.material,
+        Ripples(),
+        Effects(**given_settings(options, Effects)),
+    )
+    facts = Facts(engine=options.engine, shutter=options.shutter, camera=needs)
+    return decide(facts, settings, discretise(settings.sea, settings.grid.shortest_wavelength))
+
+
+def print_plan(plan: Plan) -> None:
+    """One line for each effect, then what is computed."""
+    width = max(len(decision.label) for decision in plan.decisions)
+    for decision in plan.decisions:
+        print(f"{decision.label:{width}}  {'on ' if decision.on else 'off'}  {decision.why}")
+    print()
+    columns = sum(block.columns for block in plan.blocks)
+    print(f"Moved: {plan.tiles if plan.tiles != 'all' else 'all tiles'}; {columns} columns for each vertex")
+    print(f"Attributes that come and go: {', '.join(plan.attributes) or 'none'}")

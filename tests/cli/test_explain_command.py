@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`explain` prints the plan of a preset's shot, as text and as JSON."""
+
+import json
+
+import pytest
+
+from ocean_lod_addon.cli import EXIT_BAD_INPUT, EXIT_OK, main
+from ocean_lod_addon.core.effects import Effects
+from ocean_lod_addon.core.parameters import parameters_of
+
+
+def explained(capsys, *arguments):
+    assert main(["explain", "--json", *arguments]) == EXIT_OK
+    return json.loads(capsys.readouterr().out)
+
+
+def test_json_has_every_effect_with_its_reason(capsys):
+    plan = explained(capsys)
+    assert list(plan["effects"]) == list(parameters_of(Effects))
+    assert all(effect["why"] for effect in plan["effects"].values())
+
+
+def test_motion_blur_adds_columns_and_an_attribute_in_cycles_alone(capsys):
+    still, blurred = explained(capsys), explained(capsys, "--shutter", "0.01")
+    assert "velocity" not in still["attributes"]
+    assert "velocity" in blurred["attributes"]
+    assert blurred["columns_per_vertex"] == still["columns_per_vertex"] + 3
+    assert explained(capsys, "--shutter", "0.01", "--engine", "EEVEE")["attributes"] == still["attributes"]
+
+
+def test_text_has_a_line_for_each_effect(capsys):
+    assert main(["explain", "--analytic-normals", "off"]) == EXIT_OK
+    lines = capsys.readouterr().out.splitlines()
+    assert any(line.startswith("Wave Normals") and "off  Set to Off" in line for line in lines)
+
+
+@pytest.mark.parametrize("arguments", [["--velocity", "maybe"], ["--preset", "atlantis"], ["--shutter", "-1"]])
+def test_bad_input_is_one_line(capsys, arguments):
+    assert main(["explain", *arguments]) == EXIT_BAD_INPUT
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
