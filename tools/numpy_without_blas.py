@@ -29,8 +29,9 @@ def main():
     print(f"Compiling NumPy {version} without BLAS; this takes some minutes", flush=True)
     subprocess.run([sys.executable, "-m", "venv", "--clear", FOLDER], check=True)
     settings = [f"--config-settings=setup-args={setting}" for setting in BUILD_SETTINGS]
-    command = [PYTHON, "-m", "pip", "install", "--no-binary=numpy", *settings, f"numpy=={version}"]
-    subprocess.run(command, check=True)
+    # No cache: pip would take a NumPy that was built with other settings from it.
+    pip_install = [PYTHON, "-m", "pip", "install", "--no-cache-dir"]
+    subprocess.run([*pip_install, "--no-binary=numpy", *settings, f"numpy=={version}"], check=True)
     own = Path(sysconfig.get_path("purelib", vars={"base": FOLDER, "platbase": FOLDER}))
     # Found after the environment's own packages, so that its NumPy is the one in use.
     (own / "everything_else.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
