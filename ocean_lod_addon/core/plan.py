@@ -139,18 +139,16 @@ class Auto:
 
 def decide(facts: Facts, settings: Settings, waves: WaveSet) -> Plan:
     """The plan for a scene; a function of its arguments alone."""
-    ripples = _ripples(facts, settings)
     auto = {
         "horizontal_displacement": _horizontal_displacement(facts, settings, waves),
         "analytic_normals": _analytic_normals(facts, settings, waves),
         "velocity": _velocity(facts, waves),
-        "ripples": ripples,
+        "ripples": _ripples(facts, settings),
         "skewed_slopes": _skewed_slopes(facts, settings),
         "curved_earth": _curved_earth(facts, settings),
         "see_through": _see_through(facts, settings),
         "finite_depth": _finite_depth(settings, waves),
     }
-    auto["gusts"] = _gusts(facts, settings, _word(settings.effects.ripples, ripples).on)
     decisions = []
     for name, parameter in parameters_of(Effects).items():
         answer = _word(getattr(settings.effects, name), auto[name])
@@ -172,11 +170,7 @@ def effective(settings: Settings, plan: Plan) -> Settings:
         material=replace(
             settings.material, skewed_slopes=plan.on("skewed_slopes"), see_through=plan.on("see_through")
         ),
-        ripples=replace(
-            settings.ripples,
-            kind=settings.ripples.kind if plan.on("ripples") else "off",
-            gusts=plan.on("gusts"),
-        ),
+        ripples=settings.ripples if plan.on("ripples") else replace(settings.ripples, kind="off"),
     )
 
 
@@ -295,19 +289,6 @@ def _ripples(facts, settings):
         pixels >= _NYQUIST_PIXELS,
         f"The longest ripple, {longest:g} m, is {_in_pixels(pixels)} long on the nearest water",
     )
-
-
-def _gusts(facts, settings, ripples_on):
-    ripples = settings.ripples
-    if not ripples.gusts or ripples.gust_strength == 0.0:
-        return Auto(False, "The ripples' gusts are not asked for")
-    if not ripples_on:
-        return Auto(False, "There are no ripples to be stronger here and weaker there", possible=False)
-    steps = BRIGHTNESS_STEPS * ripples.gust_strength
-    pixels = _pixels(facts, ripples.gust_size)
-    if pixels is not None and pixels < _NYQUIST_PIXELS:
-        return Auto(False, f"A gust is {_in_pixels(pixels)} wide on the nearest water")
-    return Auto(True, f"Changes the glitter by {steps:.0f} of 255 steps")
 
 
 def _wind(sea):

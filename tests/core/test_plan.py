@@ -129,14 +129,13 @@ def test_on_is_on_even_where_it_does_not_show():
 
 
 def test_what_can_not_be_is_not_turned_on():
-    """No skew in Cycles' closure, no gusts without ripples, no ripples of kind off."""
+    """No skew in Cycles' closure, no ripples of kind off."""
     off = dataclasses.replace(
-        changed(skewed_slopes=ON, gusts=ON, ripples=ON), ripples=Ripples(kind="off", gusts=True)
+        changed(skewed_slopes=ON, ripples=ON), ripples=Ripples(kind="off")
     )
     plan = plan_of(off)
     assert not plan.on("skewed_slopes")
     assert not plan.on("ripples")
-    assert not plan.on("gusts")
 
 
 def test_every_pair_of_choices_gives_a_plan_whose_parts_agree():
@@ -154,7 +153,6 @@ def test_every_pair_of_choices_gives_a_plan_whose_parts_agree():
         assert used.material.see_through == plan.on("see_through")
         assert used.material.skewed_slopes == plan.on("skewed_slopes")
         assert (used.ripples.kind != "off") == plan.on("ripples")
-        assert used.ripples.gusts == plan.on("gusts")
 
 
 def test_the_plan_depends_on_its_arguments_alone():
