@@ -45,12 +45,14 @@ class FrameKernel:
         self._grid = grid
         self._waves = waves
         self._order = np.argsort(waves.wavelength, kind="stable")
+        self._wave_vectors = waves.wavenumber * np.stack([np.cos(waves.direction), np.sin(waves.direction)])
         self._multiply = CONTRACTIONS[contraction or fastest_contraction()]
         self._tiles = tiles(grid.cells, grid.levels)
         self._levels = [_Level(grid, level, waves, self._order, curved_earth) for level in range(grid.levels)]
         reach = window_reach(grid, waves.wavelength[self._order])
         self._wave_counts = [len(waves) - _first_wave(grid, tile, reach) for tile in self._tiles]
         self._whole_plane = _runs(self._tiles, self._wave_counts)
+        self._last_products = {}
 
     @property
     def vertex_count(self) -> int:
@@ -94,24 +96,30 @@ class FrameKernel:
 
     def fill_factors(self, time: float, anchors: np.ndarray, blocks=(POSITION,)) -> None:
         """Form the factors of all levels at `time`: per line and wave one complex multiplication."""
-        phase = self._waves.phase_at(time)
-        k, theta = self._waves.wavenumber, self._waves.direction
-        for number, level in enumerate(self._levels):
-            x, y = anchors[number]
-            at_anchor = np.mod(phase + k * (x * np.cos(theta) + y * np.sin(theta)), 2.0 * np.pi)
-            phasor = self._waves.amplitude * np.exp(1j * at_anchor)
-            level.fill(phasor[self._order].astype(np.complex64), anchors, blocks)
+        at_anchors = np.mod(self._waves.phase_at(time) + anchors @ self._wave_vectors, 2.0 * np.pi)
+        phasors = self._waves.amplitude * np.exp(1j * at_anchors)  # (levels, waves)
+        phasors = phasors[:, self._order].astype(np.complex64)
+        for level, phasor in zip(self._levels, phasors, strict=True):
+            level.fill(phasor, anchors, blocks)
 
     def products(
         self, out: np.ndarray, visible=None, wave_limit: int | None = None, block: ColumnBlock = POSITION
     ) -> list[Product]:
         """The matrix products of one block of a frame, into `out`, (vertex_count, block.columns) float32."""
-        runs = self._whole_plane
-        if visible is not None or wave_limit is not None:
-            most = len(self._waves) if wave_limit is None else wave_limit
-            flags = np.ones(len(self._tiles), bool) if visible is None else visible
-            runs = _runs(self._tiles, np.where(flags, np.minimum(self._wave_counts, most), 0).tolist())
+        if visible is None and wave_limit is None:
+            return self._products_of_whole_plane(out, block)
+        most = len(self._waves) if wave_limit is None else wave_limit
+        flags = np.ones(len(self._tiles), bool) if visible is None else visible
+        runs = _runs(self._tiles, np.where(flags, np.minimum(self._wave_counts, most), 0).tolist())
         return [self._product(out, block, *run) for run in runs]
+
+    def _products_of_whole_plane(self, out, block):
+        """Made once for an array that is used frame after frame."""
+        last_out, products = self._last_products.get(block, (None, []))
+        if last_out is not out:
+            products = [self._product(out, block, *run) for run in self._whole_plane]
+            self._last_products[block] = (out, products)
+        return products
 
     def _product(self, out, block, first, last, wave_count):
         """The product of consecutive tiles with the `wave_count` longest waves."""
