@@ -14,9 +14,9 @@ BLENDER_4.5 = .env/blender-4.5/bin/python
 # What `make demo` renders: just under four minutes on two cores. A frame of film costs about 3 s whatever its samples.
 DEMO_PRESET ?= moderate
 STILL_SAMPLES ?= 64
-FILM_FRAMES ?= 1:48
-FILM_RESOLUTION ?= 640x360
-FILM_SAMPLES ?= 12
+FILM_FRAMES ?= 1:36
+FILM_RESOLUTION ?= 480x270
+FILM_SAMPLES ?= 8
 
 # Passed on to pytest, for example: make test TESTS="tests/core -k dispersion"
 TESTS ?=

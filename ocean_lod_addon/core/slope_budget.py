@@ -62,7 +62,7 @@ def resolved_sums(grid: Grid, waves: WaveSet, values: np.ndarray) -> np.ndarray:
                 product = left[tile.row_start : tile.row_stop] @ right_of_tile.reshape(
                     len(right), columns * tile.columns
                 )
-                result[tile.vertices] = product.reshape(-1, columns)
+                result[tile.vertices] = product.reshape(tile.vertex_count, columns)
     return result
 
 

@@ -146,7 +146,21 @@ def read_ocean(properties, frames_per_second: float) -> Ocean:
     sea = dataclasses.replace(
         read_sea(properties), loop_period=loop_period(read_time(properties), frames_per_second)
     )
-    return Ocean(sea, rna.read(Grid, properties.grid), rna.read(Framing, properties.framing))
+    return Ocean(
+        sea=sea,
+        grid=rna.read(Grid, properties.grid),
+        framing=rna.read(Framing, properties.framing),
+        ripples=read_ripples(properties),
+    )
+
+
+RIPPLES_SINCE = (5, 0, 0)
+"""Cycles in Blender 4.5 has no room for the ripples' shader ("out of SVM stack space") and would draw it black."""
+
+
+def read_ripples(properties) -> Ripples:
+    """The ripple settings; off in a Blender whose Cycles can not show them, where they are roughness instead."""
+    return rna.read(Ripples, properties.ripples) if bpy.app.version >= RIPPLES_SINCE else Ripples(kind="off")
 
 
 def read_time(properties) -> OceanTime:

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..scene import ocean_object
+from ..scene import ocean_object, properties
 from .layouts import draw_settings
 
 
@@ -25,6 +25,9 @@ class OCEAN_LOD_PT_ripples(bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         ripples = context.object.ocean_lod.ripples
+        if bpy.app.version < properties.RIPPLES_SINCE:
+            layout.label(text="Ripples need Blender 5: here they are roughness", icon="INFO")
+            return
         draw_settings(layout, ripples, ("kind",))
         if ripples.kind == "off":
             return
