@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .camera_view import CameraView
+from .column_blocks import ColumnBlock
 from .discretise import discretise
 from .framing import Framing
 from .kernel import FrameKernel
@@ -52,9 +53,18 @@ class Surface:
         """Where the plane stands for a camera and what of it moves, for a `final` picture or the viewport."""
         return place(self.ocean.grid, self.ocean.framing, self.waves, view, final)
 
-    def positions(self, time: float, placement: Placement, out: np.ndarray) -> None:
-        """Write the vertices' positions at `time` (s) into `out`, (vertex_count, 3) float32, in m."""
-        self._kernel.evaluate(time, placement.anchors, out, placement.visible, placement.wave_limit)
+    def positions(
+        self,
+        time: float,
+        placement: Placement,
+        out: np.ndarray,
+        more: dict[ColumnBlock, np.ndarray] | None = None,
+    ) -> None:
+        """Write the vertices' positions at `time` (s) into `out`, (vertex_count, 3) float32, in m.
+
+        `more` are further blocks of columns, each with the array to write it into.
+        """
+        self._kernel.evaluate(time, placement.anchors, out, placement.visible, placement.wave_limit, more)
 
     def undisturbed(self, anchors: np.ndarray) -> np.ndarray:
         """The vertices' undisturbed positions for level anchors, (vertex_count, 2) float64, m."""

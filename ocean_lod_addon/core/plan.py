@@ -40,6 +40,9 @@ VELOCITY_ATTRIBUTE = "velocity"
 NORMAL_ATTRIBUTE = "custom_normal"
 """Point attribute, FLOAT_VECTOR, that Blender shades with in place of its own normals."""
 
+EFFECT_ATTRIBUTES = (NORMAL_ATTRIBUTE, VELOCITY_ATTRIBUTE)
+"""The attributes that come and go with the plan's columns."""
+
 
 @dataclass(frozen=True)
 class Facts:
@@ -51,7 +54,6 @@ class Facts:
     camera              the camera's needs, or None without a camera
     visible_to_camera   whether camera rays see the ocean, not only reflections and shadows
     sees_water          whether any of it is in the camera's frame
-    exported            the velocity is asked for by an export
     """
 
     engine: str = "CYCLES"
@@ -60,7 +62,6 @@ class Facts:
     camera: ShotNeeds | None = None
     visible_to_camera: bool = True
     sees_water: bool = True
-    exported: bool = False
 
 
 @dataclass(frozen=True)
@@ -248,8 +249,6 @@ def _analytic_normals(facts, settings, waves):
 
 
 def _velocity(facts, waves):
-    if facts.exported:
-        return Auto(True, "Asked for by an export")
     if facts.shutter == 0.0:
         return Auto(False, "There is no motion blur")
     if facts.engine != "CYCLES":

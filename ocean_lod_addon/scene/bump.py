@@ -39,6 +39,11 @@ def write_placement(mesh, surface: Surface, placement: Placement) -> None:
         mesh_arrays.write_rest_positions(mesh, placement.anchors, surface.undisturbed(placement.anchors))
 
 
+def is_shown(material) -> bool:
+    """Whether a material has the nodes of ripples."""
+    return RIPPLES_NODE_NAME in material.node_tree.nodes
+
+
 def apply(ob, scene, material, surface: Surface, time: float) -> None:
     """Give the material images and nodes for the ripples, or take them away; not for handlers."""
     owner = material[MATERIAL_KEY]

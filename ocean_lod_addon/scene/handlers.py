@@ -17,6 +17,17 @@ def update_oceans(scene, depsgraph=None):
 
 
 @persistent
+def begin_render(scene, *_):
+    """Called by Blender before a render: without a window, attributes can come and go here.
+
+    With one this runs in a worker thread, where they can not; settings that were changed there have been followed.
+    """
+    if bpy.app.background:
+        for ob in scene.objects:
+            ocean_object.prepare_render(ob, scene)
+
+
+@persistent
 def begin_frame(scene, *_):
     """Called by Blender before a frame is rendered: its sub-frames belong to it."""
     placing.begin_rendered_frame(scene)
@@ -32,6 +43,7 @@ def _subscriptions():
     handlers = bpy.app.handlers
     return (
         (handlers.frame_change_post, update_oceans),
+        (handlers.render_init, begin_render),
         (handlers.render_pre, begin_frame),
         (handlers.render_post, end_frame),
         (handlers.render_complete, end_frame),

@@ -57,6 +57,21 @@ def write_slope_variance(mesh, variance: np.ndarray) -> None:
     mesh.attributes[SLOPE_VARIANCE].data.foreach_set("vector", variance.ravel())
 
 
+def ensure_vector_attributes(mesh, wanted, possible) -> None:
+    """Of the attributes called `possible`, let the mesh have exactly those `wanted`; not for handlers."""
+    for name in possible:
+        if name in mesh.attributes and name not in wanted:
+            mesh.attributes.remove(mesh.attributes[name])
+    for name in wanted:
+        if name not in mesh.attributes:
+            mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
+
+
+def write_vectors(mesh, name: str, vectors: np.ndarray) -> None:
+    """Set a FLOAT_VECTOR attribute, (vertices, 3) float32."""
+    mesh.attributes[name].data.foreach_set("vector", vectors.ravel())
+
+
 def ensure_ripple_attributes(mesh, bands: int) -> None:
     """Attributes for ripples of which this many bands are shown by the mesh in part; not for handlers."""
     wanted = {f"{RIPPLE_AMPLITUDE}{number}": "FLOAT_COLOR" for number in range(-(-bands // 4))}

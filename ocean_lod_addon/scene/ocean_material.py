@@ -3,6 +3,7 @@
 
 import itertools
 
+from ..core.material_settings import MaterialSettings
 from ..core.roughness import roughening_system
 from ..core.sea import Sea
 from ..core.wind import COX_MUNK_HEIGHT, wind_at_height
@@ -11,9 +12,8 @@ from ..nodes.scene_sun import claim_sun, scene_sun
 from . import properties
 
 
-def apply(ob, scene) -> None:
-    """Bring an ocean's material in step with its settings, make it if need be, and let it have the scene's sun."""
-    settings = properties.read_material(ob.ocean_lod)
+def apply(ob, scene, settings: MaterialSettings) -> None:
+    """Bring an ocean's material in step with settings, make it if need be, and let it have the scene's sun."""
     material = ensure_material(_material_name(ob), settings)
     if not ob.data.materials:
         ob.data.materials.append(material)

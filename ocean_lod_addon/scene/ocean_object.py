@@ -12,13 +12,16 @@ import threading
 import bpy
 import numpy as np
 
+from ..core.column_blocks import TANGENTS, VELOCITY
 from ..core.errors import OceanError
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
+from ..core.normals import surface_normals
 from ..core.ocean import Ocean, Surface
 from ..core.ocean_time import sea_time
+from ..core.plan import EFFECT_ATTRIBUTES, NORMAL_ATTRIBUTE, VELOCITY_ATTRIBUTE, Plan
 from ..core.sea import Sea
-from . import bump, clock, ocean_material, placing, properties
+from . import bump, clock, ocean_material, placing, planning, properties
 from . import mesh as mesh_arrays
 
 _MODIFIER_NAME = "Ocean LOD"
@@ -38,9 +41,10 @@ def _surface(ocean: Ocean) -> Surface:
     return Surface(ocean)
 
 
-@functools.lru_cache(maxsize=2)
-def _buffer(vertex_count: int) -> np.ndarray:
-    return np.empty((vertex_count, 3), np.float32)
+@functools.lru_cache(maxsize=4)
+def _buffer(vertex_count: int, columns: int, number: int = 0) -> np.ndarray:
+    """Scratch memory; another `number` is another array."""
+    return np.empty((vertex_count, columns), np.float32)
 
 
 def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"):
@@ -54,8 +58,9 @@ def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"
         properties.write_material(material, ob.ocean_lod)
         _add_deform_modifier(ob)
         _rebuild_and_move(ob, scene)
-        ocean_material.apply(ob, scene)
-        _apply_ripples(ob, scene)
+        planned = planning.PlannedOcean(ob, scene)
+        ocean_material.apply(ob, scene, planned.material)
+        _apply_ripples(ob, scene, planned.ocean)
     except OceanError:
         bpy.data.meshes.remove(ob.data)
         raise
@@ -90,7 +95,10 @@ def scene_sea_time(evaluated, scene) -> float:
 
 
 def read_ocean(evaluated, scene) -> Ocean:
-    """What an (evaluated) ocean is made from, in a scene of this frame rate. Raises OceanError."""
+    """What an (evaluated) ocean's settings ask for, in a scene of this frame rate. Raises OceanError.
+
+    What it is made of is up to the plan as well (scene.planning).
+    """
     return properties.read_ocean(evaluated.ocean_lod, clock.frames_per_second(scene))
 
 
@@ -101,13 +109,14 @@ def update(ob, scene, depsgraph) -> None:
     """
     evaluated = ob.evaluated_get(depsgraph)
     _check_transform(evaluated, scene)
-    ocean = read_ocean(evaluated, scene)
-    surface = _surface(ocean)
-    ocean_material.set_surroundings(ob, depsgraph.scene_eval, ocean.sea)
+    final = depsgraph.mode == "RENDER"
+    planned = planning.PlannedOcean(evaluated, scene, depsgraph, final)
+    surface = _surface(planned.ocean)
+    ocean_material.set_surroundings(ob, depsgraph.scene_eval, planned.ocean.sea)
     placement = placing.placement_of_frame(ob, surface, scene, depsgraph)
     if placement.sees_water:
         time = scene_sea_time(evaluated, scene)
-        _write_surface(ob, surface, placement, time)
+        _write_surface(ob, surface, placement, time, final or planned.plan.on("velocity"))
         bump.update(ob, scene, surface, time, depsgraph)
 
 
@@ -138,8 +147,7 @@ def refresh(ob, scene) -> None:
     if not is_ocean(ob):
         return
     try:
-        _rebuild_and_move(ob, scene)
-        _apply_ripples(ob, scene)
+        _apply_ripples(ob, scene, _rebuild_and_move(ob, scene).ocean)
     except OceanError as error:
         _report(ob, error)
     else:
@@ -149,17 +157,52 @@ def refresh(ob, scene) -> None:
 def refresh_material(ob, scene) -> None:
     """Bring an ocean's material in step with its settings."""
     if is_ocean(ob):
-        ocean_material.apply(ob, scene)
+        ocean_material.apply(ob, scene, planning.PlannedOcean(ob, scene).material)
+
+
+def prepare_render(ob, scene) -> None:
+    """Let an ocean have the attributes and nodes that a render calls for; not for handlers beside a window.
+
+    The surface itself waits for the frame. Settings that do not go together are reported by the frame, too.
+    """
+    if not is_ocean(ob):
+        return
+    try:
+        planned = planning.PlannedOcean(ob, scene)
+        if not mesh_arrays.has_geometry_for(ob.data, planned.ocean.grid.vertex_count):
+            return
+        _ensure_attributes(ob.data, planned)
+        material = ocean_material.own_material(ob)
+        if material is not None:
+            ocean_material.apply(ob, scene, planned.material)
+            if bump.is_shown(material) != (planned.ocean.ripples.kind != "off"):
+                _apply_ripples(ob, scene, planned.ocean)
+    except OceanError:
+        return
+
+
+def plan(ob, scene) -> Plan:
+    """The plan for a picture rendered at the scene's current frame. Raises OceanError."""
+    return planning.PlannedOcean(ob, scene).plan
 
 
 def _rebuild_and_move(ob, scene):
-    ocean = read_ocean(ob, scene)
+    """Give an ocean the geometry and attributes of its plan, at its surface of the current frame."""
+    planned = planning.PlannedOcean(ob, scene)
+    ocean = planned.ocean
     if not mesh_arrays.has_geometry_for(ob.data, ocean.grid.vertex_count):
         mesh_arrays.build_topology(ob.data, ocean.grid)
-    bump.ensure_attributes(ob.data, ocean)
+    _ensure_attributes(ob.data, planned)
     surface = _surface(ocean)
     placement = surface.placement(placing.camera_view(ob, scene))
     _write_surface(ob, surface, placement, scene_sea_time(ob, scene))
+    return planned
+
+
+def _ensure_attributes(mesh, planned):
+    """Attributes come and go here, with the plan."""
+    bump.ensure_attributes(mesh, planned.ocean)
+    mesh_arrays.ensure_vector_attributes(mesh, planned.plan.attributes, EFFECT_ATTRIBUTES)
 
 
 def metres_to_units(scene) -> float:
@@ -180,7 +223,8 @@ def _check_transform(ob, scene):
         raise OceanError("the object is tilted, allowed is a rotation about z")
 
 
-def _write_surface(ob, surface, placement, time):
+def _write_surface(ob, surface, placement, time, with_velocity=True):
+    """Write the surface into the mesh, and what its attributes ask for: a plan has put them there."""
     mesh, ocean = ob.data, surface.ocean
     if not mesh_arrays.has_geometry_for(mesh, surface.vertex_count):
         raise OceanError(
@@ -191,15 +235,25 @@ def _write_surface(ob, surface, placement, time):
         mesh_arrays.write_slope_variance(mesh, surface.slope_variance())
         bump.write_static(mesh, surface)
         mesh_arrays.set_static_fingerprint(mesh, ocean.fingerprint)
+    attributes = mesh.attributes
     with _evaluation:
-        positions = _buffer(surface.vertex_count)
-        surface.positions(time, placement, positions)
+        positions, more = _buffer(surface.vertex_count, 3), {}
+        if NORMAL_ATTRIBUTE in attributes:
+            more[TANGENTS] = _buffer(surface.vertex_count, TANGENTS.columns)
+        if VELOCITY_ATTRIBUTE in attributes and with_velocity:
+            more[VELOCITY] = _buffer(surface.vertex_count, VELOCITY.columns, number=1)
+        surface.positions(time, placement, positions, more)
         mesh_arrays.write_positions(mesh, positions)
+        if VELOCITY in more:
+            mesh_arrays.write_vectors(mesh, VELOCITY_ATTRIBUTE, more[VELOCITY])
+        if TANGENTS in more:
+            surface_normals(more[TANGENTS], positions)  # their memory is free again
+            mesh_arrays.write_vectors(mesh, NORMAL_ATTRIBUTE, positions)
     bump.write_placement(mesh, surface, placement)
 
 
-def _apply_ripples(ob, scene):
+def _apply_ripples(ob, scene, ocean):
     """Bring images and nodes of the ripples in step with the settings, once there is a material."""
     material = ocean_material.own_material(ob)
     if material is not None:
-        bump.apply(ob, scene, material, _surface(read_ocean(ob, scene)), scene_sea_time(ob, scene))
+        bump.apply(ob, scene, material, _surface(ocean), scene_sea_time(ob, scene))

@@ -7,6 +7,7 @@ import dataclasses
 import bpy
 
 from ..core.beaufort import BEAUFORT_SCALE, beaufort_force, typical_wind
+from ..core.effects import Effects
 from ..core.framing import Framing
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
@@ -48,6 +49,11 @@ def _surface_changed(group, context):
 def _material_changed(group, context):
     if not _changes.silenced:
         _changes.material(group.id_data, context.scene)
+
+
+def _effect_changed(group, context):
+    _surface_changed(group, context)
+    _material_changed(group, context)
 
 
 def _beaufort_of_wind(system):
@@ -96,6 +102,10 @@ RippleProperties = rna.property_group(
     "OCEAN_LOD_RippleProperties",
     rna.annotations(Ripples, _surface_changed, not_animatable=parameters_of(Ripples)),
 )
+EffectsProperties = rna.property_group(
+    "OCEAN_LOD_EffectsProperties",
+    rna.annotations(Effects, _effect_changed, not_animatable=parameters_of(Effects)),
+)
 TimeProperties = rna.property_group("OCEAN_LOD_TimeProperties", rna.annotations(OceanTime, _surface_changed))
 MaterialProperties = rna.property_group(
     "OCEAN_LOD_MaterialProperties", rna.annotations(MaterialSettings, _material_changed)
@@ -110,6 +120,7 @@ OceanProperties = rna.property_group(
         "grid": bpy.props.PointerProperty(type=GridProperties),
         "framing": bpy.props.PointerProperty(type=FramingProperties),
         "ripples": bpy.props.PointerProperty(type=RippleProperties),
+        "effects": bpy.props.PointerProperty(type=EffectsProperties),
         "time": bpy.props.PointerProperty(type=TimeProperties),
         "material": bpy.props.PointerProperty(type=MaterialProperties),
     },
@@ -121,6 +132,7 @@ _CLASSES = (
     GridProperties,
     FramingProperties,
     RippleProperties,
+    EffectsProperties,
     TimeProperties,
     MaterialProperties,
     OceanProperties,
@@ -161,6 +173,11 @@ RIPPLES_SINCE = (5, 0, 0)
 def read_ripples(properties) -> Ripples:
     """The ripple settings; off in a Blender whose Cycles can not show them, where they are roughness instead."""
     return rna.read(Ripples, properties.ripples) if bpy.app.version >= RIPPLES_SINCE else Ripples(kind="off")
+
+
+def read_effects(properties) -> Effects:
+    """The artist's word on each effect."""
+    return rna.read(Effects, properties.effects)
 
 
 def read_time(properties) -> OceanTime:

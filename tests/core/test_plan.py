@@ -76,11 +76,10 @@ def test_sideways_motion_of_a_tenth_of_a_pixel_decides():
         ({"engine": "CYCLES", "shutter": 0.0}, False),
         ({"engine": "EEVEE", "shutter": 0.02}, False),
         ({"engine": "CYCLES", "shutter": 0.02, "final": False}, False),
-        ({"engine": "EEVEE", "final": False, "exported": True}, True),
         ({"engine": "CYCLES", "shutter": 4.0}, False),
     ],
 )
-def test_velocity_is_for_cycles_blur_while_paths_are_straight_and_for_exports(facts, on):
+def test_velocity_is_for_cycles_blur_while_paths_are_straight(facts, on):
     plan = plan_of(camera=ShotNeeds(20.0, 1e-3, 3.0), **facts)
     assert plan.on("velocity") == on
     assert (VELOCITY in plan.blocks) == ("velocity" in plan.attributes) == on

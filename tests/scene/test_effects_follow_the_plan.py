@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Attributes come and go with the plan, and hold what the direct sum says."""
+
+import math
+
+import bpy
+import numpy as np
+import pytest
+
+import ocean_lod_addon
+from ocean_lod_addon.core.discretise import discretise
+from ocean_lod_addon.core.gerstner import surface_points
+from ocean_lod_addon.scene import mesh as mesh_arrays
+from ocean_lod_addon.scene import ocean_object
+
+EFFECT_ATTRIBUTES = {"custom_normal", "velocity"}
+
+
+@pytest.fixture
+def shot():
+    """An ocean and a camera in Cycles, where a picture is 16 x 16."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    if not hasattr(bpy.types.Object, "ocean_lod"):
+        ocean_lod_addon.register()
+    bpy.ops.mesh.ocean_lod_add(preset="moderate", cells=32, levels=4, cell_size=0.25)
+    ocean, scene = bpy.context.object, bpy.context.scene
+    ocean.ocean_lod.ripples.kind = "off"
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.rotation_euler = (math.radians(70), 0.0, math.radians(-90))
+    camera.location = (0.0, 0.0, 5.0)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples = 1
+    scene.render.resolution_x = scene.render.resolution_y = 16
+    yield ocean, scene
+    ocean_lod_addon.unregister()
+
+
+def effect_attributes(ocean):
+    return {attribute.name for attribute in ocean.data.attributes} & EFFECT_ATTRIBUTES
+
+
+def vectors(ocean, name):
+    values = np.empty((len(ocean.data.vertices), 3), np.float32)
+    ocean.data.attributes[name].data.foreach_get("vector", values.ravel())
+    return values
+
+
+@pytest.mark.parametrize(
+    ("engine", "blur", "expected"),
+    [
+        ("CYCLES", False, {"custom_normal"}),
+        ("CYCLES", True, {"custom_normal", "velocity"}),
+        ("EEVEE", True, {"custom_normal"}),
+    ],
+)
+def test_a_render_leaves_exactly_the_attributes_that_its_plan_names(shot, engine, blur, expected):
+    ocean, scene = shot
+    if engine == "EEVEE":
+        offered = [item.identifier for item in bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items]
+        scene.render.engine = next(name for name in offered if name.startswith("BLENDER_EEVEE"))
+    scene.render.use_motion_blur = blur
+    bpy.ops.render.render()
+    assert set(ocean_object.plan(ocean, scene).attributes) == expected == effect_attributes(ocean)
+
+
+def test_settings_take_attributes_away_and_bring_them_back(shot):
+    ocean, _ = shot
+    effects = ocean.ocean_lod.effects
+    effects.velocity, effects.analytic_normals = "on", "off"
+    assert effect_attributes(ocean) == {"velocity"}
+    effects.velocity = "off"
+    assert effect_attributes(ocean) == set()
+    effects.analytic_normals = "auto"
+    assert effect_attributes(ocean) == {"custom_normal"}
+
+
+def test_attributes_hold_the_water_s_velocity_and_the_surface_s_normal(shot):
+    """In the middle of the plane, where all windows are 1; frame 30 of 24 a second, float32."""
+    ocean, scene = shot
+    scene.camera = None
+    ocean.ocean_lod.effects.velocity = "on"
+    scene.frame_set(30)
+    asked = ocean_object.read_ocean(ocean, scene)
+    waves = discretise(asked.sea, asked.grid.shortest_wavelength)
+    point = surface_points(waves, 0.0, 0.0, 30 / 24)
+    positions = mesh_arrays.read_positions(ocean.data)
+    middle = int(np.argmin(np.abs(positions - point.position).sum(axis=1)))
+    assert np.abs(positions[middle] - point.position).max() < 1e-5
+    assert np.abs(vectors(ocean, "velocity")[middle] - point.velocity).max() < 1e-5
+    assert np.abs(vectors(ocean, "custom_normal")[middle] - point.normal).max() < 1e-5
+
+
+def test_blender_shades_with_the_surface_s_normals(shot):
+    ocean, scene = shot
+    scene.frame_set(12)
+    evaluated = ocean.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+    shaded = np.array([evaluated.corner_normals[loop].vector[:] for loop in range(0, 600, 7)])
+    corners = [evaluated.loops[loop].vertex_index for loop in range(0, 600, 7)]
+    assert np.abs(shaded - vectors(ocean, "custom_normal")[corners]).max() < 1e-6
+
+
+def test_off_moves_nothing_sideways(shot):
+    ocean, scene = shot
+    scene.camera = None
+    ocean.ocean_lod.effects.horizontal_displacement = "off"
+    positions = mesh_arrays.read_positions(ocean.data)[:, :2]
+    assert np.array_equal(positions, np.round(positions / 0.25) * 0.25)
+    assert ocean.ocean_lod.sea.choppiness == 1.0, "the artist's setting stays"
