@@ -2,6 +2,7 @@
 """`explain`: which effects a shot calls for, and why."""
 
 import json
+from pathlib import Path
 
 from ..core import presets
 from ..core.discretise import discretise
@@ -20,7 +21,9 @@ HELP = "Say which effects a shot calls for, and why."
 
 def add_arguments(parser) -> None:
     """Declare the command's arguments."""
-    parser.add_argument("--preset", default="moderate", help="preset, or preset .json file (%(default)s)")
+    source = parser.add_mutually_exclusive_group()
+    source.add_argument("--preset", default="moderate", help="preset, or preset .json file (%(default)s)")
+    source.add_argument("--blend", metavar="FILE", help="explain the first ocean of this .blend file, as it is")
     parser.add_argument("--engine", choices=("CYCLES", "EEVEE"), default="CYCLES", help="engine (%(default)s)")
     parser.add_argument(
         "--resolution", type=resolution, default=(960, 540), metavar="WxH", help="pixels (960x540)"
@@ -37,8 +40,8 @@ def add_arguments(parser) -> None:
 
 
 def run(options) -> None:
-    """Print the plan of a preset's shot."""
-    plan = preset_plan(options)
+    """Print the plan of a preset's shot, or of a file's scene at its current frame."""
+    plan = _blend_plan(options) if options.blend else preset_plan(options)
     if options.json:
         print(json.dumps(plan.to_json(), indent=2))
     else:
@@ -59,6 +62,15 @@ def preset_plan(options) -> Plan:
     )
     facts = Facts(engine=options.engine, shutter=options.shutter, camera=needs)
     return decide(facts, settings, discretise(settings.sea, settings.grid.shortest_wavelength))
+
+
+def _blend_plan(options):
+    from ..scene import ocean_object
+    from .render import open_blend
+
+    scene = open_blend(Path(options.blend))
+    ocean = next(ob for ob in scene.objects if ocean_object.is_ocean(ob))
+    return ocean_object.plan(ocean, scene)
 
 
 def print_plan(plan: Plan) -> None:

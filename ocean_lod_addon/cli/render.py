@@ -56,7 +56,7 @@ def run(options) -> None:
     if options.save_blend:
         _check_save_target(Path(options.save_blend))
     if options.blend:
-        scene = _open(Path(options.blend))
+        scene = open_blend(Path(options.blend))
         frames = frames or FrameRange(scene.frame_current, scene.frame_current)
         _set_overrides(scene, options)
     else:
@@ -93,7 +93,8 @@ def _check_save_target(path):
     _check_writable(path.absolute())
 
 
-def _open(path):
+def open_blend(path: Path):
+    """Open a .blend file; returns its scene, which has an ocean and a camera. Raises OceanError."""
     import bpy
 
     from ..scene import ocean_object

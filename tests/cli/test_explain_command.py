@@ -39,3 +39,23 @@ def test_text_has_a_line_for_each_effect(capsys):
 def test_bad_input_is_one_line(capsys, arguments):
     assert main(["explain", *arguments]) == EXIT_BAD_INPUT
     assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+def test_a_file_s_plan_is_the_one_that_its_ocean_follows(capsys, tmp_path):
+    """A sideways look from 3 m in Cycles with motion blur, and normals that the file switches off."""
+    import bpy
+
+    import ocean_lod_addon
+
+    file = tmp_path / "shot.blend"
+    arguments = ["--resolution", "16x16", "--samples", "1", "--output", str(tmp_path / "one.png")]
+    assert main(["render", *arguments]) == EXIT_OK
+    ocean = next(ob for ob in bpy.data.objects if ob.ocean_lod.is_ocean)
+    bpy.context.scene.render.use_motion_blur = True
+    ocean.ocean_lod.effects.analytic_normals = "off"
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    capsys.readouterr()
+    plan = explained(capsys, "--blend", str(file))
+    assert plan["attributes"] == ["velocity"]
+    assert plan["effects"]["analytic_normals"] == {"on": False, "why": "Set to Off"}
+    ocean_lod_addon.unregister()
