@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 from ..core import presets
-from ..core.discretise import discretise
+from ..core.discretise import check_wave_height, discretise
 from ..core.errors import OceanError
 from ..core.lod import Grid
 from ..core.ocean_time import OceanTime, loop_period
@@ -58,6 +58,7 @@ def run(options) -> None:
         return
     sea = sea_of(options)
     waves = discretise(sea, options.shortest_wavelength)
+    check_wave_height(sea, waves)
     report = sea_report(sea, waves, options.shortest_wavelength)
     if options.plot:
         from .sea_plot import save_plot

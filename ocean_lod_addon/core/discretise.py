@@ -23,11 +23,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .dispersion import Water, angular_frequency, coth_kh, wavenumber
-from .errors import OutOfRangeError
+from .errors import OceanError, OutOfRangeError
 from .quadrature import BinNodes, bin_nodes
 from .rng import stream_seed, uniform
 from .sea import Sea, WaveSystem
-from .spectra.moments import NO_ENERGY_BELOW
+from .spectra.moments import NO_ENERGY_BELOW, significant_wave_height
 from .spectra.table import Spectrum, spectrum_of
 from .spreading.sampling import direction_at_share, mean_cos2
 from .spreading.table import Spreading, spreading_of
@@ -85,6 +85,20 @@ def check_shortest_wavelength(shortest_wavelength: float) -> None:
     """Raise `OutOfRangeError` unless the wavelength, m, is a positive number."""
     if not 0.0 < shortest_wavelength < np.inf:
         raise OutOfRangeError("shortest wavelength", shortest_wavelength, "a positive length in m")
+
+
+def check_wave_height(sea: Sea, waves: WaveSet) -> None:
+    """Raise `OceanError` if the significant height of a sea's waves is larger than the depth of its water.
+
+    Waves break long before (at about 0.6 of the depth), and troughs would lie below the bottom: no sum of waves
+    is a sea there. Between the two the sum is still drawn, if not natural.
+    """
+    height = significant_wave_height(0.5 * float(np.sum(waves.amplitude**2)))
+    if height > sea.water.depth:
+        raise OceanError(
+            f"significant wave height is {height:.3g} m in water {sea.depth:.3g} m deep, allowed is up to"
+            " the depth: make the water deeper or the waves lower"
+        )
 
 
 def _system_waves(sea, index, system, cutoff):

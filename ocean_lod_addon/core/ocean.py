@@ -9,7 +9,7 @@ import numpy as np
 
 from .camera_view import CameraView
 from .column_blocks import ColumnBlock
-from .discretise import discretise
+from .discretise import check_wave_height, discretise
 from .framing import Framing
 from .kernel import FrameKernel
 from .lod import Grid, undisturbed_positions
@@ -37,11 +37,12 @@ class Ocean:
 
 
 class Surface:
-    """The surface of an ocean: what is static once, what moves at any time."""
+    """The surface of an ocean: what is static once, what moves at any time. Raises OceanError if none can be."""
 
     def __init__(self, ocean: Ocean, contraction: str | None = None):
         self.ocean = ocean
         self.waves: WaveSet = discretise(ocean.sea, ocean.grid.shortest_wavelength)
+        check_wave_height(ocean.sea, self.waves)
         self._kernel = FrameKernel(ocean.grid, self.waves, contraction, ocean.framing.curved_earth)
 
     @property

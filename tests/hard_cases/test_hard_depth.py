@@ -1,10 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Hard cases of depth: water much shallower and much deeper than waves are long, and lower than waves are high."""
 
+import dataclasses
+
 import numpy as np
+import pytest
 
 from ocean_lod_addon.core.constants import GRAVITY
+from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.dispersion import Water, angular_frequency, coth_kh, group_speed, wavenumber
+from ocean_lod_addon.core.errors import OceanError
+from ocean_lod_addon.core.gerstner import surface_points
+from ocean_lod_addon.core.lod import Grid
+from ocean_lod_addon.core.ocean import Ocean, Surface
+from ocean_lod_addon.core.sea import Sea, WaveSystem
 from tests.hard_cases.catalogue import FLOAT64_ROUNDING, hard_case
 
 KH = np.geomspace(1e-8, 1e8, 2001)
@@ -85,3 +94,38 @@ def test_no_frequency():
             t = np.tanh(k * DEPTH)
             k = k - (GRAVITY * k * t) / (GRAVITY * (t + k * DEPTH * (1.0 - t * t)))
     return float(k), float(wavenumber(0.0, WATER))
+
+
+SWELL = WaveSystem(spectrum="jonswap", sized_by="height", significant_wave_height=3.0, period=9.0)
+SHALLOW = Sea(systems=(SWELL,), finite_depth=True, depth=1.5)
+SMALL_GRID = Grid(cell_size=0.25, cells=8, levels=2)
+
+
+@hard_case(
+    title="waves of 3 m in water 1.5 m deep",
+    truth="no sea: one clear line says so, with the depth that the waves need",
+    naive="the sum of the waves, whatever the depth",
+    error="lowest trough below the bottom, m (0 where the sea is refused)",
+    bound=0.0,
+    because="refused by name",
+)
+def test_waves_higher_than_the_water_is_deep():
+    x, y = np.random.default_rng(5).uniform(-500.0, 500.0, (2, 2000))
+    naive = -SHALLOW.depth - surface_points(discretise(SHALLOW, 1.0), x, y, 0.0).position[:, 2].min()
+    try:
+        Surface(Ocean(SHALLOW, SMALL_GRID))
+    except OceanError as error:
+        named = "significant wave height is 3 m in water 1.5 m deep, allowed is up to the depth" in str(error)
+        return float(naive), float("inf") if not named else 0.0
+    return float(naive), float(naive)
+
+
+@pytest.mark.parametrize(("share", "allowed"), [(0.999, True), (1.001, False)])
+def test_waves_as_high_as_the_water_is_deep_are_the_limit(share, allowed):
+    height = 4.0 * np.sqrt(0.5 * np.sum(discretise(SHALLOW, SMALL_GRID.shortest_wavelength).amplitude ** 2))
+    ocean = Ocean(dataclasses.replace(SHALLOW, depth=float(height / share)), SMALL_GRID)
+    if allowed:
+        assert len(Surface(ocean).waves)
+    else:
+        with pytest.raises(OceanError, match="allowed is up to the depth"):
+            Surface(ocean)

@@ -26,8 +26,8 @@ HARD = {
     "wind 1e-3": one(wind_speed_m_s=0.001),
     "wind 60": one(wind_speed_m_s=60.0),
     "wind 80": one(wind_speed_m_s=80.0),
-    "depth 0.05 m": one(**SWELL) | {"finite_depth": True, "depth_m": 0.05},
-    "depth 0.05 m, TMA": one(spectrum="tma") | {"finite_depth": True, "depth_m": 0.05},
+    "depth 0.05 m": one(**SWELL | {"significant_wave_height_m": 0.03}) | {"finite_depth": True, "depth_m": 0.05},
+    "depth 0.05 m, TMA": one(spectrum="tma", wind_speed_m_s=3.0) | {"finite_depth": True, "depth_m": 0.05},
     "depth 1e5 m": one() | {"finite_depth": True, "depth_m": 1e5},
     "fetch 10 m": one(spectrum="jonswap", fetch_m=10.0),
     "fetch 1e7 m": one(spectrum="jonswap", fetch_m=1e7),
@@ -104,3 +104,21 @@ def test_extremes_typed_into_the_panel_are_kept_in_range(ocean):
     assert (system.wind_speed, system.fetch) == (80.0, 10.0)
     assert system.direction == pytest.approx(2 * math.pi)
     assert ocean_object.problem(ocean) == ""
+
+
+def test_water_shallower_than_the_waves_is_one_clear_line(ocean):
+    """Truth: the ocean stays as it was, the panel says why, and mending the depth moves it again."""
+    sea = ocean.ocean_lod.sea
+    before = mesh.read_positions(ocean.data)
+    sea.depth, sea.finite_depth = 0.1, True
+    assert ocean_object.problem(ocean) == (
+        "significant wave height is 2.16 m in water 0.1 m deep, allowed is up to the depth:"
+        " make the water deeper or the waves lower"
+    )
+    assert np.array_equal(mesh.read_positions(ocean.data), before)
+    ocean.ocean_lod.effects.finite_depth = "off"
+    assert ocean_object.problem(ocean) == ""
+    ocean.ocean_lod.effects.finite_depth = "auto"
+    sea.depth = 5.0
+    assert ocean_object.problem(ocean) == ""
+    assert not np.array_equal(mesh.read_positions(ocean.data), before)
