@@ -39,7 +39,8 @@ class Ripples:
         (
             Option("256", "256", "Least work per frame, most images to look up"),
             Option("512", "512", "The middle way"),
-            Option("1024", "1024", "Most work per frame, fewest images to look up"),
+            Option("1024", "1024", "More work per frame, fewer images to look up"),
+            Option("2048", "2048", "Most work per frame, fewest images to look up: for stills and comparisons"),
         ),
     )
     shortest_wavelength: float = number(

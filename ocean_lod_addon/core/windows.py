@@ -34,11 +34,11 @@ def window_levels(grid: Grid, wavelength) -> np.ndarray:
     return np.clip(np.floor(np.log2(finest)), 0, grid.levels - 1).astype(int)
 
 
-def window(distance, reach) -> np.ndarray:
+def window(distance, reach, fade_start: float = FADE_START) -> np.ndarray:
     """The window at a distance (>= 0, m) along one axis for a wave of this reach (m); they broadcast.
 
-    A quintic step: 1 up to FADE_START reach, 0 from reach on, with continuous first and second derivatives, so
-    that neither the surface nor its shading shows where a wave fades.
+    A quintic step: 1 up to `fade_start` (below 1) times the reach, 0 from reach on, with continuous first and
+    second derivatives, so that neither the surface nor its shading shows where a wave fades.
     """
-    u = np.clip((reach - distance) / (reach * (1.0 - FADE_START)), 0.0, 1.0)
+    u = np.clip((reach - distance) / (reach * (1.0 - fade_start)), 0.0, 1.0)
     return u * u * u * (u * (6.0 * u - 15.0) + 10.0)
