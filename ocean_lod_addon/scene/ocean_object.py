@@ -21,6 +21,7 @@ from ..core.ocean import Ocean, Surface
 from ..core.ocean_time import sea_time
 from ..core.plan import EFFECT_ATTRIBUTES, NORMAL_ATTRIBUTE, VELOCITY_ATTRIBUTE, Plan
 from ..core.sea import Sea
+from ..nodes.pass_through import ensure_pass_through
 from . import bump, clock, ocean_material, placing, planning, properties
 from . import mesh as mesh_arrays
 
@@ -56,7 +57,7 @@ def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"
         properties.write_sea(sea, ob.ocean_lod)
         properties.write_grid(grid, ob.ocean_lod)
         properties.write_material(material, ob.ocean_lod)
-        _add_deform_modifier(ob)
+        _add_pass_through_modifier(ob)
         _rebuild_and_move(ob, scene)
         planned = planning.PlannedOcean(ob, scene)
         ocean_material.apply(ob, scene, planned.material)
@@ -69,13 +70,14 @@ def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"
     return ob
 
 
-def _add_deform_modifier(ob):
+def _add_pass_through_modifier(ob):
     """A modifier that does nothing, but tells Blender that the mesh deforms.
 
-    Without one, Alembic and USD export a static mesh and Cycles gives no motion blur to moved vertices.
+    Without one, Alembic and USD export a static mesh and neither engine blurs moved vertices. Blender takes any
+    geometry nodes for a deformation, and nodes that hand the mesh on share its arrays: a deform modifier, even of
+    no strength, would copy the vertices in every frame.
     """
-    modifier = ob.modifiers.new(_MODIFIER_NAME, "SMOOTH")
-    modifier.iterations = 0
+    ob.modifiers.new(_MODIFIER_NAME, "NODES").node_group = ensure_pass_through()
 
 
 def is_ocean(ob) -> bool:
