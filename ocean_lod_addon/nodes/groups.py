@@ -16,9 +16,16 @@ VERSION_KEY = "ocean_lod_build_version"
 """Custom property of such a group: what it was built from."""
 
 
+NAME_PREFIX = "Ocean LOD "
+"""What tells our groups apart in a file; within a group of ours it goes without saying."""
+
+
 @dataclass(frozen=True)
 class Socket:
-    """A socket of a group. `kind` is FLOAT, VECTOR, COLOR or SHADER; `subtype` as Blender names it."""
+    """A socket of a group. `kind` is FLOAT, VECTOR, COLOR or SHADER; `subtype` as Blender names it.
+
+    `panel` is the title of a fold of the group's node that the socket is in, closed at first; empty for none.
+    """
 
     name: str
     kind: str
@@ -28,6 +35,7 @@ class Socket:
     maximum: float | None = None
     subtype: str = "NONE"
     hide_value: bool = False
+    panel: str = ""
 
 
 _SOCKET_TYPES = {
@@ -94,6 +102,9 @@ def ensure_group(recipe: GroupRecipe) -> bpy.types.NodeTree:
 
 def _declare_sockets(tree, recipe):
     """Make the interface of `tree` that of `recipe`, keeping the items that stay."""
+    for item in list(tree.interface.items_tree):
+        if item.item_type == "PANEL":
+            tree.interface.remove(item, move_content_to_parent=True)
     wanted = [("OUTPUT", socket) for socket in recipe.outputs] + [("INPUT", socket) for socket in recipe.inputs]
     kept = []
     for in_out, socket in wanted:
@@ -102,10 +113,24 @@ def _declare_sockets(tree, recipe):
         kept.append(item)
     identifiers = {item.identifier for item in kept}
     for item in list(tree.interface.items_tree):
-        if item.item_type != "SOCKET" or item.identifier not in identifiers:
+        if item.identifier not in identifiers:
             tree.interface.remove(item)
     for position, (in_out, socket) in enumerate(wanted):
         tree.interface.move(_interface_item(tree, in_out, socket), position)
+    _fold_into_panels(tree, recipe.inputs)
+
+
+def _fold_into_panels(tree, sockets):
+    """Panels stand below the sockets that are in none, in the order of their first socket."""
+    panels = {}
+    for socket in sockets:
+        if socket.panel:
+            if socket.panel not in panels:
+                panels[socket.panel] = tree.interface.new_panel(socket.panel, default_closed=True)
+            panel = panels[socket.panel]
+            tree.interface.move_to_parent(
+                _interface_item(tree, "INPUT", socket), panel, len(panel.interface_items)
+            )
 
 
 def _interface_item(tree, in_out, socket):
@@ -137,7 +162,8 @@ def use_group(graph: Graph, recipe: GroupRecipe, values: dict) -> dict:
 
     `values` may hold more than this group takes.
     """
-    node = graph.node("ShaderNodeGroup", recipe.name, node_tree=find_group(recipe.name))
+    title = recipe.name.removeprefix(NAME_PREFIX)
+    node = graph.node("ShaderNodeGroup", title, node_tree=find_group(recipe.name))
     for socket in recipe.inputs:
         graph.connect(values[socket.name], node.inputs[socket.name])
     return {socket.name: graph.output_of(node, socket.name) for socket in recipe.outputs}

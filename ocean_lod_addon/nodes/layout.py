@@ -15,6 +15,13 @@ FRAME_MARGIN = 40.0
 
 _HEADER_HEIGHT = 32.0
 _ROW_HEIGHT = 22.0
+_CHARACTER_WIDTH = 7.0
+_TITLE_MARGIN, _SOCKET_MARGIN, _SELECTOR_MARGIN = 36.0, 30.0, 84.0
+"""Room beside a node's title, a socket's name, and the name of a group among the buttons beside it."""
+
+_VALUE_CHARACTERS = 8
+"""Room that a number or a color takes beside the name of its socket."""
+
 _DROPDOWN_ROWS = {
     "ShaderNodeMath": 2,
     "ShaderNodeVectorMath": 1,
@@ -50,6 +57,22 @@ def estimated_height(node) -> float:
     return _HEADER_HEIGHT + _ROW_HEIGHT * rows
 
 
+def fitting_width(node) -> float:
+    """The width at which no title and no socket's name is cut off."""
+    names = [_SOCKET_MARGIN + _CHARACTER_WIDTH * _characters(socket) for socket in (*node.inputs, *node.outputs)]
+    title = _TITLE_MARGIN + _CHARACTER_WIDTH * len(node.label)
+    tree = getattr(node, "node_tree", None)
+    selector = _SELECTOR_MARGIN + _CHARACTER_WIDTH * len(tree.name) if tree else 0.0
+    return max(node.width, title, selector, *names)
+
+
+def _characters(socket):
+    if not _is_shown(socket):
+        return 0
+    has_field = not (socket.is_output or socket.is_linked or socket.hide_value)
+    return len(socket.name) + (_VALUE_CHARACTERS if has_field else 0)
+
+
 def _is_shown(socket):
     return not socket.hide and socket.enabled
 
@@ -62,6 +85,8 @@ def _rows(socket):
 def arrange(tree) -> None:
     """Give every node of `tree` its place; nodes in frames stay in their frames."""
     nodes = [node for node in tree.nodes if node.bl_idname != "NodeFrame"]
+    for node in nodes:
+        node.width = fitting_width(node)
     links = [(link.from_node.name, link.to_node.name) for link in tree.links]
     blocks = [_arranged_block(group, links) for group in _by_frame(nodes)]
     block_of = {node.name: index for index, block in enumerate(blocks) for node in block.nodes}

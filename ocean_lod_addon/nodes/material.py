@@ -18,7 +18,7 @@ from ..core.optics.water_types import (
 from ..core.sun import Sun
 from .clear_water_group import CLEAR_WATER, SKEWED_CLEAR_WATER
 from .groups import ensure_group
-from .layout import arrange
+from .layout import arrange, fitting_width
 from .sockets import (
     ABSORPTION,
     BACKSCATTERING,
@@ -157,7 +157,7 @@ def _build_tree(tree):
     water = tree.nodes.new("ShaderNodeGroup")
     water.name = NODE_NAME
     water.node_tree = ensure_group(WATER)
-    water.width = 240.0
+    water.width = 260.0  # leaves room for the values
     tree.links.new(attribute.outputs["Vector"], water.inputs[SLOPE_VARIANCE.name])
     for socket in (CYCLES, EEVEE):
         output = tree.nodes.new("ShaderNodeOutputMaterial")
@@ -177,6 +177,7 @@ def _use_group(material, group):
     sources = [(link.from_socket, link.to_socket.name) for link in tree.links if link.to_node == node]
     targets = [(link.from_socket.name, link.to_socket) for link in tree.links if link.from_node == node]
     node.node_tree = group
+    node.width = fitting_width(node)
     for name, value in values.items():
         if name in node.inputs:
             node.inputs[name].default_value = value

@@ -6,6 +6,9 @@ import math
 from ..core.sun import DISC_ANGLE
 from .groups import Socket
 
+_SUN = "Sun (follows the scene)"
+_WIND = "Wind (follows the sea)"
+
 SLOPE_VARIANCE = Socket(
     "Slope Variance",
     "VECTOR",
@@ -65,7 +68,11 @@ NORMAL = Socket(
 )
 BSDF = Socket("BSDF", "SHADER")
 SUN_DIRECTION = Socket(
-    "Sun Direction", "VECTOR", "Unit vector from the ground to the sun, in world space", (0.0, 0.0, 1.0)
+    "Sun Direction",
+    "VECTOR",
+    "Unit vector from the ground to the sun, in world space",
+    (0.0, 0.0, 1.0),
+    panel=_SUN,
 )
 SUN_IRRADIANCE = Socket(
     "Sun Irradiance",
@@ -73,9 +80,10 @@ SUN_IRRADIANCE = Socket(
     "Light of the sun on a plane that faces it, linear RGB in the units of a Sun light's strength (W/m²). Black "
     "for no sun",
     (0.0, 0.0, 0.0, 1.0),
+    panel=_SUN,
 )
 SUN_ANGLE = Socket(
-    "Sun Angle", "FLOAT", "Angular diameter of the sun", DISC_ANGLE, 0.0, math.pi / 2, "ANGLE"
+    "Sun Angle", "FLOAT", "Angular diameter of the sun", DISC_ANGLE, 0.0, math.pi / 2, "ANGLE", panel=_SUN
 )
 GLITTER_STRENGTH = Socket(
     "Glitter Strength", "FLOAT", "Factor on the brightness of the sun's reflection. 1 is physical", 1.0, 0.0, 4.0
@@ -95,6 +103,7 @@ FORMULA_SUN = Socket(
     0.0,
     1.0,
     "FACTOR",
+    panel=_SUN,
 )
 WIND_SPEED = Socket(
     "Wind Speed",
@@ -103,6 +112,7 @@ WIND_SPEED = Socket(
     10.0,
     0.0,
     80.0,
+    panel=_WIND,
 )
 WIND_DIRECTION = Socket(
     "Wind Direction",
@@ -112,6 +122,7 @@ WIND_DIRECTION = Socket(
     -2.0 * math.pi,
     2.0 * math.pi,
     "ANGLE",
+    panel=_WIND,
 )
 MISSING_SUN = Socket(
     "Missing Sun in EEVEE",
@@ -121,6 +132,7 @@ MISSING_SUN = Socket(
     0.0,
     1.0,
     "FACTOR",
+    panel=_SUN,
 )
 CYCLES = Socket("Cycles", "SHADER", "Surface for Cycles")
 EEVEE = Socket("EEVEE", "SHADER", "Surface for EEVEE")

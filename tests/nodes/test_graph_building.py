@@ -176,6 +176,33 @@ def test_sockets_carry_range_and_description():
     assert x.description == "the value X"
 
 
+def test_sockets_of_a_panel_are_folded_below_the_others_and_keep_their_links():
+    def build(graph):
+        graph.output("Result", graph.input("X") + graph.input("Y") + graph.input("Z"))
+
+    def with_panels(version, **panels):
+        sockets = tuple(Socket(name, "FLOAT", panel=panels.get(name, "")) for name in "XYZ")
+        return ensure_group(GroupRecipe("Test Group", version, sockets, (Socket("Result", "FLOAT"),), build))
+
+    tree = with_panels("1", X="Weather", Z="Weather")
+    material = bpy.data.materials.new("Mine")
+    if material.node_tree is None:
+        material.use_nodes = True
+    group = material.node_tree.nodes.new("ShaderNodeGroup")
+    group.node_tree = tree
+    source = material.node_tree.nodes.new("ShaderNodeValue")
+    material.node_tree.links.new(source.outputs[0], group.inputs["X"])
+    for version, panels, order in (("1", {"X": "Weather", "Z": "Weather"}, "YXZ"), ("2", {"Y": "Water"}, "XZY")):
+        with_panels(version, **panels)
+        folds = {item.name: item for item in tree.interface.items_tree if item.item_type == "PANEL"}
+        (title,) = set(panels.values())
+        assert list(folds) == [title]
+        assert folds[title].default_closed
+        assert [item.name for item in folds[title].interface_items] == list(panels)
+        assert [socket.name for socket in group.inputs] == list(order)
+        assert group.inputs["X"].links[0].from_node == source
+
+
 def test_nodes_do_not_overlap_and_links_run_left_to_right():
     def build(graph):
         ops = GraphOps(graph)

@@ -6,6 +6,7 @@ import pytest
 
 from ocean_lod_addon.core.material_settings import MaterialSettings
 from ocean_lod_addon.nodes.groups import VERSION_KEY
+from ocean_lod_addon.nodes.layout import fitting_width
 from ocean_lod_addon.nodes.material import SLOPE_VARIANCE_ATTRIBUTE, ensure_material
 from ocean_lod_addon.nodes.water_group import WATER
 from tests.nodes.tree_description import describe_tree
@@ -56,10 +57,20 @@ def test_every_socket_that_an_artist_sees_is_described():
     ensure_material("Ocean", MaterialSettings())
     for tree in bpy.data.node_groups:
         for item in tree.interface.items_tree:
+            if item.item_type == "PANEL":
+                continue
             if item.in_out == "INPUT":
                 assert item.description, f"{tree.name}: {item.name}"
             if item.socket_type == "NodeSocketFloat":
                 assert item.min_value < item.max_value < 1e6, f"{tree.name}: {item.name} has no range"
+
+
+def test_no_title_or_name_is_cut_off():
+    ensure_material("Ocean", MaterialSettings(see_through=True, skewed_slopes=True))
+    for tree in (*bpy.data.node_groups, *(material.node_tree for material in bpy.data.materials)):
+        for node in tree.nodes:
+            if node.bl_idname != "NodeFrame":
+                assert node.width >= fitting_width(node), f"{tree.name}: {node.name}"
 
 
 def test_only_changed_settings_are_written():
