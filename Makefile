@@ -44,7 +44,8 @@ demo: environment-blender-5.2
 	$(BLENDER_5.2) -m ocean_lod_addon render --preset $(DEMO_PRESET) --engine CYCLES \
 		--resolution 960x540 --samples $(STILL_SAMPLES) --output out/ocean_still.png
 	$(BLENDER_5.2) -m ocean_lod_addon render --preset $(DEMO_PRESET) --engine CYCLES \
-		--frames $(FILM_FRAMES) --resolution $(FILM_RESOLUTION) --samples $(FILM_SAMPLES) --output out/ocean_film.mp4
+		--frames $(FILM_FRAMES) --resolution $(FILM_RESOLUTION) --samples $(FILM_SAMPLES) --denoise \
+		--output out/ocean_film.mp4
 	@echo
 	@echo 'Still: $(CURDIR)/out/ocean_still.png'
 	@echo 'Film:  $(CURDIR)/out/ocean_film.mp4'

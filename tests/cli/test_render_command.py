@@ -7,6 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 REPOSITORY = Path(__file__).parents[2]
@@ -65,6 +66,30 @@ def test_seed_changes_the_sea_and_nothing_else_does(tmp_path):
         pictures[name] = _pixels(output)
     assert (pictures["a"] == pictures["b"]).all()
     assert not (pictures["a"] == pictures["c"]).all()
+
+
+@pytest.mark.render
+def test_a_frame_of_an_animation_is_the_frame_alone(tmp_path):
+    """Truth: what Cycles keeps from frame to frame changes no bit of a picture, ripples included."""
+    for frames, name in (("1:3", "film.exr"), ("3", "alone.exr")):
+        done = run("render", "--preset", "moderate", *TINY, "--frames", frames, "--output", tmp_path / name)
+        assert done.returncode == 0, done.stderr
+    first, third = (_pixels(tmp_path / f"film_000{frame}.exr") for frame in (1, 3))
+    assert (third == _pixels(tmp_path / "alone.exr")).all()
+    assert not (third == first).all()
+
+
+@pytest.mark.render
+def test_denoising_smooths_the_noise_away_and_keeps_the_light(tmp_path):
+    pictures = {}
+    for name, option in (("noisy", []), ("clean", ["--denoise"])):
+        arguments = ["--resolution", "64x36", "--samples", "1", *option, "--output", tmp_path / f"{name}.exr"]
+        done = run("render", "--preset", "moderate", *arguments)
+        assert done.returncode == 0, done.stderr
+        pictures[name] = _pixels(tmp_path / f"{name}.exr")[:18, :, 1]  # the sea
+    noise = {name: np.abs(np.diff(np.log(picture + 1e-3), axis=1)).mean() for name, picture in pictures.items()}
+    assert noise["clean"] < 0.5 * noise["noisy"]
+    assert pictures["clean"].mean() == pytest.approx(pictures["noisy"].mean(), rel=0.2)
 
 
 def _pixels(path):
