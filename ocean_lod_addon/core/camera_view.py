@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .lod import Grid, tiles
+from .lod import Grid, tile_table
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,30 +66,33 @@ def visible_tiles(
     """Which tiles can be seen, a bool for each: boxes around them that are not wholly outside some plane.
 
     `highest` bounds the waves' heights above and below the mean level and `reach` their horizontal displacement,
-    in m. With a finite `curved_radius` (m) the sea sinks with distance.
+    in m: a vertex stays within the ellipsoid of these half axes around its undisturbed place. With a finite
+    `curved_radius` (m) the sea sinks with distance.
     """
-    boxes = np.array([_box(grid, anchors, tile) for tile in tiles(grid.cells, grid.levels)])
-    low, high = boxes[:, 0] - reach, boxes[:, 1] + reach  # (tiles, 2)
+    low, high = _boxes(grid, anchors)
     furthest = np.maximum(np.abs(low - anchors[0]), np.abs(high - anchors[0]))
     drop = (furthest**2).sum(axis=1) / (2.0 * curved_radius)
-    bottom, top = -highest - drop, np.full(len(boxes), highest)
-    seen = np.ones(len(boxes), bool)
+    seen = np.ones(len(low), bool)
     for nx, ny, nz, offset in planes:
         corner = (
             np.maximum(nx * low[:, 0], nx * high[:, 0])
             + np.maximum(ny * low[:, 1], ny * high[:, 1])
-            + np.maximum(nz * bottom, nz * top)
+            + np.maximum(-nz * drop, 0.0)
+            + np.hypot(np.hypot(nx, ny) * reach, nz * highest)
         )
         seen &= corner + offset >= 0.0
     return seen
 
 
-def _box(grid, anchors, tile):
-    """Undisturbed (low, high) corner of a tile with the cells that join it to its neighbours, (2, 2), m."""
-    lines, cell = grid.lines(tile.level), 1.5 * grid.spacing(tile.level)
-    low = np.array([lines[tile.row_start], lines[tile.column_start]]) - cell
-    high = np.array([lines[tile.row_stop - 1], lines[tile.column_stop - 1]]) + cell
-    return low + anchors[tile.level], high + anchors[tile.level]
+def _boxes(grid, anchors):
+    """Undisturbed low and high corners, (tiles, 2) m each, of all tiles and the cells that join them to others."""
+    table = tile_table(grid.cells, grid.levels)
+    spacing = grid.cell_size * np.exp2(table.level)[:, None]
+    middle, cell = grid.cells // 2, 1.5
+    first = np.stack([table.row_start, table.column_start], axis=-1) - middle
+    last = np.stack([table.row_stop, table.column_stop], axis=-1) - middle - 1
+    here = anchors[table.level]
+    return (first - cell) * spacing + here, (last + cell) * spacing + here
 
 
 def nearest_visible_water(view: CameraView) -> np.ndarray:

@@ -19,15 +19,43 @@ and then only for waves that fade within the level; per frame only L is formed, 
 matrix. Phases are formed in float64 and reduced modulo 2 pi before they are rounded, so that precision does not
 depend on where or when. Waves are sorted from short to long: a tile far out drops the short ones, whose windows
 are zero there, by taking the tail of the inner dimension, and a tile that nobody sees drops them all.
+
+The factors themselves are in core.factors, which also halves the multiplications where they are dear.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 
-from .column_blocks import POSITION, ColumnBlock, Still
-from .contraction import CONTRACTIONS, Product, fastest_contraction
-from .lod import Grid, tiles
+from .column_blocks import POSITION, ColumnBlock
+from .contraction import CONTRACTIONS, MirroredProduct, Product, fastest_contraction
+from .factors import Level, nearest_vertex
+from .lod import Grid, TileTable, tile_table, tiles
 from .waves import WaveSet
-from .windows import FADE_START, window, window_levels, window_reach
+from .windows import window_reach
+
+
+@dataclass(eq=False)
+class ReusedArray:
+    """An array that kernels write into frame after frame, and nobody else does.
+
+    They note in it where they have put still water, which is then not written again until it moves.
+    """
+
+    array: np.ndarray
+    still: "_StillWater | None" = None
+
+
+@dataclass(frozen=True, eq=False)
+class _StillWater:
+    """The tiles of an array that hold a kernel's still water, a flag for each, at level anchors (levels, 2).
+
+    `owner` stands for the kernel, whose memory an array need not keep alive.
+    """
+
+    owner: object
+    flags: np.ndarray
+    anchors: np.ndarray
 
 
 class FrameKernel:
@@ -42,16 +70,21 @@ class FrameKernel:
 
         With `curved_earth` the plane sinks by d^2 / (2 R) at the distance d from the finest level's anchor.
         """
-        self._grid = grid
-        self._waves = waves
+        self._waves, self._curved = waves, curved_earth
+        self._identity = object()
         self._order = np.argsort(waves.wavelength, kind="stable")
         self._wave_vectors = waves.wavenumber * np.stack([np.cos(waves.direction), np.sin(waves.direction)])
-        self._multiply = CONTRACTIONS[contraction or fastest_contraction()]
+        self._contraction = CONTRACTIONS[contraction or fastest_contraction()]
         self._tiles = tiles(grid.cells, grid.levels)
-        self._levels = [_Level(grid, level, waves, self._order, curved_earth) for level in range(grid.levels)]
+        self._table = tile_table(grid.cells, grid.levels)
+        mirrored = self._contraction.mirrored
+        self._levels = [
+            Level(grid, number, waves, self._order, curved_earth, mirrored) for number in range(grid.levels)
+        ]
         reach = window_reach(grid, waves.wavelength[self._order])
-        self._wave_counts = [len(waves) - _first_wave(grid, tile, reach) for tile in self._tiles]
-        self._whole_plane = _runs(self._tiles, self._wave_counts)
+        self._wave_counts = len(waves) - _first_waves(grid, self._table, reach)
+        self._units = (_MirroredTiles if mirrored else _PlainTiles)(grid)
+        self._follows = _follows(self._table, np.arange(len(self._tiles)))
         self._last_products = {}
 
     @property
@@ -73,10 +106,10 @@ class FrameKernel:
         self,
         time: float,
         anchors: np.ndarray,
-        out: np.ndarray,
+        out: np.ndarray | ReusedArray,
         visible=None,
         wave_limit: int | None = None,
-        more: dict[ColumnBlock, np.ndarray] | None = None,
+        more: dict[ColumnBlock, np.ndarray | ReusedArray] | None = None,
     ) -> None:
         """Write the positions at `time` (s) into `out`, (vertex_count, 3) float32, C-contiguous, in m.
 
@@ -86,235 +119,195 @@ class FrameKernel:
         more         further blocks of columns to evaluate, each into an array like `out` with its columns
         """
         outputs = {POSITION: out} | (more or {})
-        self.fill_factors(time, anchors, outputs)
-        products = [
-            product
-            for block, array in outputs.items()
-            for product in self.products(array, visible, wave_limit, block)
-        ]
-        self._multiply(products)
+        self.fill_factors(time, anchors, outputs, visible)
+        products = []
+        for block, output in outputs.items():
+            reused = output if isinstance(output, ReusedArray) else ReusedArray(output)
+            products += self.products(reused.array, visible, wave_limit, block)
+            if visible is not None:
+                products += self._still_products(reused, block, anchors, visible)
+            else:
+                reused.still = None
+        self._contraction.multiply(products)
 
-    def fill_factors(self, time: float, anchors: np.ndarray, blocks=(POSITION,)) -> None:
-        """Form the factors of all levels at `time`: per line and wave one complex multiplication."""
+    def fill_factors(self, time: float, anchors: np.ndarray, blocks=(POSITION,), visible=None) -> None:
+        """Form the factors at `time`, for visible tiles: per line and wave one complex multiplication."""
         at_anchors = np.mod(self._waves.phase_at(time) + anchors @ self._wave_vectors, 2.0 * np.pi)
         phasors = self._waves.amplitude * np.exp(1j * at_anchors)  # (levels, waves)
         phasors = phasors[:, self._order].astype(np.complex64)
         for level, phasor in zip(self._levels, phasors, strict=True):
-            level.fill(phasor, anchors, blocks)
+            level.fill(phasor, anchors, blocks, self._visible_rows(level, visible))
+
+    def _visible_rows(self, level, visible):
+        """The lines of a level from its first to its last tile that is visible."""
+        if visible is None:
+            return slice(0, len(level.lines))
+        here = visible & (self._table.level == level.number)
+        if not here.any():
+            return slice(0, 0)
+        return slice(int(self._table.row_start[here].min()), int(self._table.row_stop[here].max()))
 
     def products(
         self, out: np.ndarray, visible=None, wave_limit: int | None = None, block: ColumnBlock = POSITION
-    ) -> list[Product]:
-        """The matrix products of one block of a frame, into `out`, (vertex_count, block.columns) float32."""
-        if visible is None and wave_limit is None:
-            return self._products_of_whole_plane(out, block)
+    ) -> list[Product] | list[MirroredProduct]:
+        """The products that move one block of a frame, into `out`, (vertex_count, block.columns) float32.
+
+        Made once for an array and a view that stay the same from frame to frame.
+        """
+        view = None if visible is None else visible.tobytes(), wave_limit
+        last_out, last_view, products = self._last_products.get(block, (None, None, []))
+        if last_out is out and last_view == view:
+            return products
         most = len(self._waves) if wave_limit is None else wave_limit
         flags = np.ones(len(self._tiles), bool) if visible is None else visible
-        runs = _runs(self._tiles, np.where(flags, np.minimum(self._wave_counts, most), 0).tolist())
-        return [self._product(out, block, *run) for run in runs]
-
-    def _products_of_whole_plane(self, out, block):
-        """Made once for an array that is used frame after frame."""
-        last_out, products = self._last_products.get(block, (None, []))
-        if last_out is not out:
-            products = [self._product(out, block, *run) for run in self._whole_plane]
-            self._last_products[block] = (out, products)
+        kinds, counts = self._units.needs(flags, np.minimum(self._wave_counts, most))
+        runs = _runs(self._units.follows, kinds, counts)
+        products = [self._units.product(self._levels, out, block, *run) for run in runs]
+        self._last_products[block] = (out, view, products)
         return products
 
-    def _product(self, out, block, first, last, wave_count):
-        """The product of consecutive tiles with the `wave_count` longest waves."""
-        tile, end = self._tiles[first], self._tiles[last]
+    def _still_products(self, reused, block, anchors, visible):
+        """The products that put still water where it is wanted and not yet there."""
+        flat = ~visible
+        missing = flat.copy()
+        if reused.still is not None and reused.still.owner is self._identity:
+            moved = (anchors != reused.still.anchors).any(axis=1)
+            if self._curved:
+                moved[:] |= moved[0]
+            missing &= ~reused.still.flags | moved[self._table.level]
+        reused.still = _StillWater(self._identity, flat, anchors.copy())
+        runs = _runs(self._follows, missing, np.zeros(len(missing), int))
+        return [self._still_product(reused.array, block, self._tiles[a], self._tiles[b]) for a, b, _, _ in runs]
+
+    def _still_product(self, out, block, tile, end):
         level = self._levels[tile.level]
-        inner = slice(2 * (level.wave_count - wave_count), None)
-        vertices = slice(tile.first_vertex, end.vertices.stop)
         columns = slice(block.columns * tile.column_start, block.columns * tile.column_stop)
         return Product(
-            level.left[tile.row_start : end.row_stop, inner],
-            level.right(block)[inner, columns],
-            out[vertices].reshape(-1, block.columns * tile.columns),
+            level.lefts[-1][tile.row_start : end.row_stop, -level.base_rows :],
+            level.right(block).base[:, columns],
+            _rows_of(out, block, tile, end),
         )
 
 
-_LONGEST_RUN = 512
-"""Rows of one product, at most; more do not make it faster."""
+class _PlainTiles:
+    """Every tile by itself; neighbours make one product."""
 
-_WASTE = 1 / 8
+    def __init__(self, grid):
+        self._tiles = tiles(grid.cells, grid.levels)
+        self.follows = _follows(tile_table(grid.cells, grid.levels), np.arange(len(self._tiles)))
+
+    def needs(self, visible, wave_counts):
+        """For each: whether it is needed, and with how many waves."""
+        return visible.astype(int), wave_counts
+
+    def product(self, levels, out, block, first, last, _kind, wave_count):
+        """The product of the units first..last with the `wave_count` longest waves."""
+        tile, end = self._tiles[first], self._tiles[last]
+        level = levels[tile.level]
+        inner = slice(level.rows_of(level.wave_count) - level.rows_of(wave_count), None)
+        columns = slice(block.columns * tile.column_start, block.columns * tile.column_stop)
+        return Product(
+            level.lefts[0][tile.row_start : end.row_stop, inner],
+            level.right(block).matrix[inner, columns],
+            _rows_of(out, block, tile, end),
+        )
+
+
+_OWN, _IMAGE = 1, 2
+"""Bits of what is needed of a tile and its mirror image."""
+
+
+class _MirroredTiles:
+    """The tiles of the upper half, each with its mirror image."""
+
+    def __init__(self, grid):
+        self._tiles = tiles(grid.cells, grid.levels)
+        table = tile_table(grid.cells, grid.levels)
+        numbers = np.arange(len(self._tiles))
+        by_place = {(t.level, t.row_start, t.column_stop): number for number, t in enumerate(self._tiles)}
+        self._own = numbers[table.column_start >= grid.cells // 2]
+        last = [max(self._tiles[number].column_start, grid.cells // 2 + 1) for number in self._own]
+        self._image = np.array(
+            [
+                by_place[self._tiles[number].level, self._tiles[number].row_start, grid.cells + 1 - first]
+                for number, first in zip(self._own, last, strict=True)
+            ]
+        )
+        self.follows = _follows(table, self._own)
+
+    def needs(self, visible, wave_counts):
+        """For each: which of the two is needed, as bits, and with how many waves."""
+        counts = np.where(visible, wave_counts, 0)
+        kinds = _OWN * visible[self._own] + _IMAGE * visible[self._image]
+        return kinds, np.maximum(counts[self._own], counts[self._image])
+
+    def product(self, levels, out, block, first, last, kind, wave_count):
+        """The product of the units first..last with the `wave_count` longest waves."""
+        own, own_end = (self._tiles[self._own[number]] for number in (first, last))
+        image, image_end = (self._tiles[self._image[number]] for number in (first, last))
+        level = levels[own.level]
+        right = level.right(block)
+        inner = slice(level.rows_of(level.wave_count) - level.rows_of(wave_count), None)
+        mirrored = None
+        if kind & _IMAGE:
+            mirrored = _rows_of(out, block, image, image_end).reshape(-1, image.columns, block.columns)[:, ::-1]
+        return MirroredProduct(
+            tuple(left[own.row_start : own_end.row_stop, inner] for left in level.lefts),
+            tuple(matrix[inner] for matrix in right.strips[own.column_start]),
+            right.signs,
+            _rows_of(out, block, own, own_end) if kind & _OWN else None,
+            mirrored,
+        )
+
+
+def _rows_of(out, block, tile, end):
+    """The columns of a block of the consecutive tiles tile..end, (rows, columns of all lines)."""
+    return out[tile.first_vertex : end.vertices.stop].reshape(-1, block.columns * tile.columns)
+
+
+def _follows(table: TileTable, numbers):
+    """For some tiles in vertex order: whether the rows of each go on where those of the one before end."""
+    own, before = numbers[1:], numbers[:-1]
+    same_strip = table.column_start[own] == table.column_start[before]
+    go_on = table.row_start[own] == table.row_stop[before]
+    return np.concatenate([[False], (table.level[own] == table.level[before]) & same_strip & go_on])
+
+
+_WASTE = 1 / 3
 """Tiles share a product if that adds no more than this share to the waves of the one that needs fewer."""
 
 
-def _runs(plane, wave_counts):
-    """Neighbouring tiles grouped into products: (first tile, last tile, number of waves) of each.
+def _runs(follows, kinds, wave_counts):
+    """Neighbours of equal kind, other than 0, as products: (first, last, kind, number of waves) of each.
 
-    Larger products run closer to the processor's speed. All tiles of a run take as many waves as the one that
-    needs most; in the others the windows of the added ones are zero.
+    Larger products run closer to the processor's speed. All of a run take as many waves as the one that needs
+    most; in the others the windows of the added ones are zero.
     """
+    starts = np.flatnonzero(~follows | (np.diff(kinds, prepend=-1) != 0))
+    stops = np.append(starts[1:], len(kinds))
+    wave_counts = wave_counts.tolist()
     runs = []
-    for number, (tile, count) in enumerate(zip(plane, wave_counts, strict=True)):
-        if runs:
-            first, last, shared = runs[-1]
-            if _continues(plane[first], plane[last], tile) and abs(count - shared) <= _WASTE * min(count, shared):
-                runs[-1] = (first, number, max(count, shared))
-                continue
-        runs.append((number, number, count))
+    for start, stop, kind in zip(starts.tolist(), stops.tolist(), kinds[starts].tolist(), strict=True):
+        if not kind:
+            continue
+        shared = wave_counts[start]
+        for number in range(start, stop):
+            count = wave_counts[number]
+            if abs(count - shared) > _WASTE * min(count, shared):
+                runs.append((start, number - 1, kind, shared))
+                start, shared = number, count
+            shared = max(shared, count)
+        runs.append((start, stop - 1, kind, shared))
     return runs
 
 
-def _continues(first, last, tile):
-    """Whether a tile's rows go on where those of the run first..last end, within the longest run."""
-    same_strip = (last.level, last.column_start, last.row_stop) == (tile.level, tile.column_start, tile.row_start)
-    return same_strip and tile.row_stop - first.row_start <= _LONGEST_RUN
-
-
-class _Level:
-    """One level's left factor L, and its right factors R, one for each block of columns that was asked for.
-
-    The last columns of L are those of the undisturbed plane, last so that small terms are summed first: x, 1, and
-    with a curved Earth also x^2, which takes a second column (of zeros) to keep L an array of complex pairs.
-    """
-
-    def __init__(self, grid, number, waves, order, curved_earth):
-        lines = grid.lines(number)
-        self.number, self.lines, self.curved = number, lines, curved_earth
-        reach = window_reach(grid, waves.wavelength[order])
-        self.first_wave = int(np.searchsorted(reach, _nearest(grid, number), side="right"))
-        self.present = order[self.first_wave :]
-        self.wave_count = len(self.present)
-        self.waves = waves
-        self.reach = reach[self.first_wave :]
-        self.window_levels = window_levels(grid, waves.wavelength[self.present])
-        self._windows = _Windows(self, axis=0)
-        self._blocks: dict[ColumnBlock, _Right] = {}
-
-        k, theta = waves.wavenumber[self.present], waves.direction[self.present]
-        self._wave_x = np.exp(1j * np.outer(lines, k * np.cos(theta))).astype(np.complex64)  # (lines, waves)
-        self.wave_y = np.exp(1j * np.outer(k * np.sin(theta), lines)).astype(np.complex64)  # (waves, lines)
-        self._static_left = np.empty_like(self._wave_x)
-        self.base_rows = 4 if curved_earth else 2
-        self.left = np.zeros((len(lines), 2 * self.wave_count + self.base_rows), np.float32)
-        self.left[:, -2], self.left[:, -1] = lines, 1.0
-
-    def fill(self, phasor, anchors, blocks):
-        """Refill L with the phasors of all waves, shortest first, and the blocks' R where the anchors moved."""
-        self._windows.place(anchors, self._refill)
-        if self.curved:
-            self.left[:, -4] = (self.lines + (anchors[self.number] - anchors[0])[0]) ** 2
-        waves_of_left = self.left.view(np.complex64)[:, : self.wave_count]
-        np.multiply(self._static_left, phasor[self.first_wave :], out=waves_of_left)
-        for block in blocks:
-            if block not in self._blocks:
-                self._blocks[block] = _Right(self, block)
-            self._blocks[block].place(anchors)
-
-    @property
-    def blocks(self):
-        """The blocks that have been filled."""
-        return set(self._blocks)
-
-    def right(self, block):
-        """The right factor of a block that has been filled."""
-        return self._blocks[block].matrix
-
-    def _refill(self, waves, shift):
-        """Put the windows of some waves into L's static part; `shift` is this level's centre from the windows'."""
-        values = window(np.abs(self.lines + shift)[:, None], self.reach[None, waves])
-        np.multiply(self._wave_x[:, waves], values, out=self._static_left[:, waves], casting="same_kind")
-
-
-class _Right:
-    """The right factor R of one block of columns on one level."""
-
-    def __init__(self, level, block):
-        self._level, self._block = level, block
-        self._windows = _Windows(level, axis=1)
-        self._weights = block.weights(level.waves)[level.present].astype(np.complex64)  # (waves, columns)
-        self.matrix = np.zeros(
-            (2 * level.wave_count + level.base_rows, block.columns * len(level.lines)), np.float32
-        )
-
-    def place(self, anchors):
-        """Refill what changes when the anchors have moved."""
-        if not self._windows.place(anchors, self._refill):
-            return
-        level = self._level
-        still = Still(level.lines, anchors[level.number], anchors[0], level.curved)
-        one, x, x_squared = self._block.base(still)
-        self.matrix[-1], self.matrix[-2] = one.ravel(), x.ravel()
-        if level.curved:
-            self.matrix[-4] = x_squared.ravel()
-
-    def _refill(self, waves, shift):
-        """Put the windows of some waves into R; `shift` is the level's centre from the windows'."""
-        level = self._level
-        values = window(np.abs(level.lines + shift)[None, :], level.reach[waves, None]).astype(np.float32)
-        weighted = (level.wave_y[waves] * values)[:, :, None] * self._weights[waves, None, :]
-        rows = self.matrix[: 2 * level.wave_count].reshape(level.wave_count, 2, -1)
-        flat = weighted.reshape(len(weighted), -1)
-        rows[waves, 0], rows[waves, 1] = flat.real, -flat.imag
-
-
-class _Windows:
-    """What the windows of a factor were last filled for: along one axis, the waves grouped by their centre."""
-
-    def __init__(self, level, axis):
-        self._level, self._axis = level, axis
-        self._groups = _groups(level.window_levels)
-        self._placed = None
-
-    def place(self, anchors, refill) -> bool:
-        """Call refill(waves, shift) for those that change, `shift` being the level's centre from the windows', m.
-
-        Returns whether the anchors have moved at all.
-        """
-        placed = anchors.tobytes()
-        if placed == self._placed:
-            return False
-        self._placed = placed
-        for group in self._groups:
-            shift = (anchors[self._level.number] - anchors[group.level])[self._axis]
-            whole = self._shown_whole(group.waves, shift)
-            if group.shift != shift and not (whole and group.whole):
-                refill(group.waves, shift)
-            group.shift, group.whole = shift, whole
-        return True
-
-    def _shown_whole(self, waves, shift):
-        """Whether the windows of some waves are 1 on the whole level, and thus need no refilling when it moves."""
-        return self._level.reach[waves].min() * FADE_START >= self._level.lines[-1] + abs(shift)
-
-
-class _Group:
-    """Waves of a level whose windows share one centre, a slice of its sorted waves, and where they stand now."""
-
-    def __init__(self, level, waves):
-        self.level, self.waves = level, waves
-        self.shift, self.whole = None, False
-
-
-def _groups(levels_of_waves):
-    """The waves, in order, as runs of equal window level."""
-    starts = np.flatnonzero(np.diff(levels_of_waves, prepend=-1))
-    stops = np.append(starts[1:], len(levels_of_waves)) if len(starts) else starts
-    return [
-        _Group(int(levels_of_waves[start]), slice(int(start), int(stop)))
-        for start, stop in zip(starts, stops, strict=True)
-    ]
-
-
-def _nearest(grid, level):
-    """The least distance from any wave's window centre at which the level owns a vertex, m.
-
-    Centres and anchors differ by half a cell of each, less than a cell of this level where a window matters.
-    """
-    if level == 0:
-        return 0.0
-    return grid.lines(level)[3 * grid.cells // 4 + 1] - grid.spacing(level)
-
-
-def _first_wave(grid, tile, reach):
-    """The shortest wave whose window is not zero everywhere on the tile."""
-    distance = np.abs(grid.lines(tile.level))
-    nearest = max(
-        distance[tile.row_start : tile.row_stop].min(), distance[tile.column_start : tile.column_stop].min()
-    )
-    nearest = max(nearest - grid.spacing(tile.level), _nearest(grid, tile.level))
-    return int(np.searchsorted(reach, nearest, side="right"))
+def _first_waves(grid, table, reach):
+    """For each tile the shortest wave whose window is not zero everywhere on it."""
+    middle, spacing = grid.cells // 2, grid.cell_size * np.exp2(table.level)
+    nearest = np.zeros(len(spacing))
+    for start, stop in ((table.row_start, table.row_stop), (table.column_start, table.column_stop)):
+        lines_off = np.maximum(np.maximum(start - middle, middle - (stop - 1)), 0)
+        nearest = np.maximum(nearest, lines_off * spacing)
+    outside_hole = np.array([nearest_vertex(grid, level) for level in range(grid.levels)])
+    nearest = np.maximum(nearest - spacing, outside_hole[table.level])
+    return np.searchsorted(reach, nearest, side="right")

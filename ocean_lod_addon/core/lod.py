@@ -11,6 +11,7 @@ Each level is cut into rectangular tiles. A tile is a tensor-product grid of lin
 product, and a contiguous range of the vertex buffer.
 """
 
+import dataclasses
 import functools
 import itertools
 from dataclasses import dataclass
@@ -125,18 +126,25 @@ class Tile:
         return slice(self.first_vertex, self.first_vertex + self.vertex_count)
 
 
-_TILE_LINES = 64
-"""Lines along a tile's side, about: small enough for tiles outside the camera's view to be worth skipping."""
+_TILE_ROWS, _TILE_COLUMNS = 16, 64
+"""Lines along a tile's sides, about. Tiles that follow each other in x are evaluated as one product, so short ones
+cost nothing there and leave out the more of what is not in view; strips of them must be wide to be fast."""
+
+_MOST_PIECES = 16
+"""Of a quarter of a level's lines: the finest planes have tiles enough."""
 
 
-def _tile_edges(cells):
-    """Line numbers where tiles begin, and the end; the closed hole [cells/4, 3 cells/4] is a union of tiles."""
-    quarter = cells // 4
-    pieces = max(1, round(quarter / _TILE_LINES))
+def _tile_edges(cells, size):
+    """Line numbers where tiles begin, and the end; the closed hole [cells/4, 3 cells/4] is a union of tiles.
+
+    They mirror each other about the middle line, which itself belongs to the tile after it.
+    """
+    middle, quarter = cells // 2, cells // 4
+    pieces = min(max(1, round(quarter / size)), _MOST_PIECES)
     cuts = [quarter * piece // pieces for piece in range(pieces)]
-    starts = [side * quarter + cut for side in range(4) for cut in cuts]
-    past_hole = [start + 1 if start >= 3 * quarter else start for start in starts]
-    return [*past_hole, cells + 1]
+    low = [side * quarter + cut for side in range(2) for cut in cuts]
+    high = [cells + 1 - start for start in reversed(low[1:])]
+    return [*low, middle, *high, cells + 1]
 
 
 @functools.lru_cache(maxsize=32)
@@ -146,19 +154,47 @@ def tiles(cells: int, levels: int) -> tuple[Tile, ...]:
     Within a level, tiles that follow each other in x do so in the vertex buffer, where their rows make one
     longer block: neighbours can be evaluated as one product.
     """
-    edges = _tile_edges(cells)
-    spans = list(itertools.pairwise(edges))
+    rows = list(itertools.pairwise(_tile_edges(cells, _TILE_ROWS)))
     hole = range(cells // 4, 3 * cells // 4 + 1)
     result, first_vertex = [], 0
     for level in range(levels):
-        for column_start, column_stop in spans:
-            for row_start, row_stop in spans:
+        for column_start, column_stop in tile_columns(cells):
+            for row_start, row_stop in rows:
                 if level > 0 and row_start in hole and column_start in hole:
                     continue
                 tile = Tile(level, row_start, row_stop, column_start, column_stop, first_vertex)
                 result.append(tile)
                 first_vertex += tile.vertex_count
     return tuple(result)
+
+
+def tile_columns(cells: int) -> list[tuple[int, int]]:
+    """The strips that tiles stand in: (first, past the last) of their y lines, in order.
+
+    Each has a mirror image about the middle line, but for that line itself, with which the first of the upper half
+    begins.
+    """
+    return list(itertools.pairwise(_tile_edges(cells, _TILE_COLUMNS)))
+
+
+@dataclass(frozen=True, eq=False)
+class TileTable:
+    """The numbers of all tiles as arrays, (tiles,) int."""
+
+    level: np.ndarray
+    row_start: np.ndarray
+    row_stop: np.ndarray
+    column_start: np.ndarray
+    column_stop: np.ndarray
+    first_vertex: np.ndarray
+
+
+@functools.lru_cache(maxsize=32)
+def tile_table(cells: int, levels: int) -> TileTable:
+    """The tiles of the plane in vertex order, for sums over all of them."""
+    fields = [field.name for field in dataclasses.fields(TileTable)]
+    numbers = [[getattr(tile, field) for field in fields] for tile in tiles(cells, levels)]
+    return TileTable(*np.array(numbers).T)
 
 
 def undisturbed_positions(grid: Grid, anchors: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from .camera_view import CameraView
 from .column_blocks import ColumnBlock
 from .discretise import check_wave_height, discretise
 from .framing import Framing
-from .kernel import FrameKernel
+from .kernel import FrameKernel, ReusedArray
 from .lod import Grid, undisturbed_positions
 from .placement import Placement, place
 from .ripple_settings import Ripples
@@ -58,8 +58,8 @@ class Surface:
         self,
         time: float,
         placement: Placement,
-        out: np.ndarray,
-        more: dict[ColumnBlock, np.ndarray] | None = None,
+        out: np.ndarray | ReusedArray,
+        more: dict[ColumnBlock, np.ndarray | ReusedArray] | None = None,
     ) -> None:
         """Write the vertices' positions at `time` (s) into `out`, (vertex_count, 3) float32, in m.
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.column_blocks import TANGENTS, VELOCITY
 from ..core.errors import OceanError
+from ..core.kernel import ReusedArray
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
 from ..core.normals import surface_normals
@@ -42,10 +43,16 @@ def _surface(ocean: Ocean) -> Surface:
     return Surface(ocean)
 
 
-@functools.lru_cache(maxsize=4)
-def _buffer(vertex_count: int, columns: int, number: int = 0) -> np.ndarray:
-    """Scratch memory; another `number` is another array."""
-    return np.empty((vertex_count, columns), np.float32)
+@functools.lru_cache(maxsize=5)
+def _buffer(vertex_count: int, columns: int, number: int = 0) -> ReusedArray:
+    """Memory that kernels write into; another `number` is another array."""
+    return ReusedArray(np.empty((vertex_count, columns), np.float32))
+
+
+@functools.lru_cache(maxsize=1)
+def _normals(vertex_count: int) -> np.ndarray:
+    """Scratch memory."""
+    return np.empty((vertex_count, 3), np.float32)
 
 
 def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"):
@@ -245,12 +252,13 @@ def _write_surface(ob, surface, placement, time, with_velocity=True):
         if VELOCITY_ATTRIBUTE in attributes and with_velocity:
             more[VELOCITY] = _buffer(surface.vertex_count, VELOCITY.columns, number=1)
         surface.positions(time, placement, positions, more)
-        mesh_arrays.write_positions(mesh, positions)
+        mesh_arrays.write_positions(mesh, positions.array)
         if VELOCITY in more:
-            mesh_arrays.write_vectors(mesh, VELOCITY_ATTRIBUTE, more[VELOCITY])
+            mesh_arrays.write_vectors(mesh, VELOCITY_ATTRIBUTE, more[VELOCITY].array)
         if TANGENTS in more:
-            surface_normals(more[TANGENTS], positions)  # their memory is free again
-            mesh_arrays.write_vectors(mesh, NORMAL_ATTRIBUTE, positions)
+            normals = _normals(surface.vertex_count)
+            surface_normals(more[TANGENTS].array, normals)
+            mesh_arrays.write_vectors(mesh, NORMAL_ATTRIBUTE, normals)
     bump.write_placement(mesh, surface, placement)
 
 

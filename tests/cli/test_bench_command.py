@@ -57,16 +57,27 @@ def test_every_way_to_make_the_square_gives_the_same_sea():
         np.testing.assert_allclose(direct.positions, truth, rtol=0.0, atol=tolerance * height)
 
 
-@pytest.mark.parametrize("contraction", CONTRACTIONS)
-def test_no_wave_is_spared_in_the_square(contraction):
+def test_no_wave_is_spared_in_the_square():
     # Windows of the square's waves reach past its edge but begin to fall inside it, so the positions are not the
     # full sum there; the work is: every product takes all waves, 2 W + 2 columns of the left factor.
     workload = workloads.square(128, 16)
-    frame = workloads.Frame(workload, contraction, workloads.position_buffer(workload.grid))
+    frame = workloads.Frame(workload, "matmul", workloads.position_buffer(workload.grid))
     products = frame.products()
     assert sum(product.out.size for product in products) == 3 * 129**2
     assert {product.left.shape[1] for product in products} == {2 * 16 + 2}
     assert workloads.product_flops(products) == 2 * 3 * 129**2 * (2 * 16 + 2)
+
+
+def test_without_a_blas_the_square_is_mirrored():
+    # The middle line has no image. U and V take a row for each wave, one more for each that fades, and 2.
+    workload = workloads.square(128, 16)
+    frame = workloads.Frame(workload, "einsum", workloads.position_buffer(workload.grid))
+    products = frame.products()
+    assert sum(product.out.size for product in products) == 3 * 129 * 65
+    assert sum(product.mirrored.size for product in products) == 3 * 129 * 64
+    (inner,) = {left.shape[1] for product in products for left in product.left}
+    assert 16 + 2 <= inner < 2 * 16 + 2
+    assert workloads.product_flops(products) == 2 * 2 * 3 * 129 * 65 * inner
 
 
 def test_the_products_alone_write_what_the_frame_writes():
@@ -93,7 +104,7 @@ def test_pieces_of_a_product_make_the_whole():
     generator = np.random.Generator(np.random.PCG64(1))
     left, right = generator.random((300, 70), np.float32), generator.random((70, 900), np.float32)
     out = np.empty((300, 900), np.float32)
-    CONTRACTIONS["einsum"]([Product(left, right, out)])
+    CONTRACTIONS["einsum"].multiply([Product(left, right, out)])
     np.testing.assert_array_equal(out, np.einsum("ij,jk->ik", left, right))
 
 

@@ -78,12 +78,12 @@ class Frame:
 
 def product_flops(products: list[Product]) -> float:
     """Floating-point operations of some products, an addition and a multiplication counted as two."""
-    return float(sum(2 * p.left.shape[0] * p.left.shape[1] * p.right.shape[1] for p in products))
+    return sum(product.operations for product in products)
 
 
 def products_contestant(name: str, products: list[Product], contraction: str) -> Contestant:
     """The products by themselves."""
-    multiply = CONTRACTIONS[contraction]
+    multiply = CONTRACTIONS[contraction].multiply
     return Contestant(name, {"products": lambda _: multiply(products)})
 
 
