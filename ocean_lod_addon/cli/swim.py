@@ -9,7 +9,7 @@ import numpy as np
 from ..core import presets
 from ..core.lod import Grid
 from ..core.ocean import Ocean, Surface
-from ..core.swim import dolly_and_pan, measure
+from ..core.swim import SwimReport, dolly_and_pan, measure
 from .arguments import whole_number
 
 NAME = "swim"
@@ -17,6 +17,9 @@ HELP = "Measure how much the mesh makes the sea move when only the camera does (
 
 _NEAREST, _FURTHEST = 2.0, 1500.0  # m
 _DOLLY = 10.0  # m, what 200 frames travel
+
+SHOT_GRID = Grid(cell_size=0.03, cells=512, levels=9)
+"""The plane of the shot."""
 
 
 def add_arguments(parser) -> None:
@@ -27,14 +30,19 @@ def add_arguments(parser) -> None:
     parser.add_argument("--json", action="store_true", help="print JSON")
 
 
+def measure_shot(surface: Surface, frames: int, points: int) -> SwimReport:
+    """The swim of a surface in the shot, at random points around it, at one sea time."""
+    random = np.random.Generator(np.random.PCG64(0))
+    distance = np.exp(random.uniform(np.log(_NEAREST), np.log(_FURTHEST), points))
+    bearing = random.uniform(-np.pi, np.pi, points)
+    x, y = distance * np.cos(bearing) + _DOLLY / 2, distance * np.sin(bearing)
+    return measure(surface, dolly_and_pan(frames, speed=_DOLLY / frames), x, y, time=7.0)
+
+
 def run(options) -> None:
     """Measure and print. Raises OceanError for an unknown preset."""
-    surface = Surface(Ocean(presets.load(options.preset).sea, Grid(cell_size=0.03, cells=512, levels=9)))
-    random = np.random.Generator(np.random.PCG64(0))
-    distance = np.exp(random.uniform(np.log(_NEAREST), np.log(_FURTHEST), options.points))
-    bearing = random.uniform(-np.pi, np.pi, options.points)
-    x, y = distance * np.cos(bearing) + _DOLLY / 2, distance * np.sin(bearing)
-    report = measure(surface, dolly_and_pan(options.frames, speed=_DOLLY / options.frames), x, y, time=7.0)
+    surface = Surface(Ocean(presets.load(options.preset).sea, SHOT_GRID))
+    report = measure_shot(surface, options.frames, options.points)
     if options.json:
         print(json.dumps(dataclasses.asdict(report), indent=2))
         return

@@ -17,12 +17,12 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.cli import bench
-from ocean_lod_addon.cli.bench import in_blender, measurements, plot, suite, workloads
+from ocean_lod_addon.cli.bench import correctness, in_blender, measurements, plot, suite, workloads
 from ocean_lod_addon.cli.bench.targets import MISS, NOT_MEASURED, PASS, Target
 from ocean_lod_addon.cli.bench.timing import Contestant, Ratio, Timing, measure, ratio
 from ocean_lod_addon.core.contraction import CONTRACTIONS, Product
 from ocean_lod_addon.core.gerstner import surface_points
-from ocean_lod_addon.core.lod import Grid
+from ocean_lod_addon.core.lod import Grid, Topology, topology
 
 REPOSITORY = Path(__file__).parents[2]
 BAD_INPUT = 2
@@ -34,6 +34,8 @@ TINY = measurements.Plan(
     largest_direct_sum=3e5,  # 16 waves on 129^2 vertices, not 32
     square_sizes=(64, 128),
     view_grid=Grid(cells=32, levels=3),
+    swim_grid=Grid(cells=64, levels=6),
+    swim_frames=3,
     rounds=1,
 )
 
@@ -195,11 +197,11 @@ def test_contestants_take_turns_with_a_new_moment_each_time():
     with contextlib.redirect_stdout(io.StringIO()):
         measured = measure(contestants, rounds=2)
     order = [name for name, _ in calls if name != "b"]
-    assert order == ["a"] * 4 + ["c"] * 4 + ["a"] * 4 + ["c"] * 4  # one untimed run, then three
+    assert order == ["a"] * 10 + ["c"] * 10 + ["a"] * 10 + ["c"] * 10  # one untimed run, then nine
     moments = [time for name, time in calls if name != "b"]
     assert len(set(moments)) == len(moments), "the same moment twice"
-    assert measured["one"].samples.shape == (6, 2)
-    assert measured["two"].samples.shape == (6, 1)
+    assert measured["one"].samples.shape == (18, 2)
+    assert measured["two"].samples.shape == (18, 1)
 
 
 @pytest.mark.parametrize(
@@ -263,7 +265,29 @@ def test_the_saved_results_are_plain_json(tiny):
     assert saved["schema_version"] == 1
     assert saved["rows"][0]["timings"]["products"]["median_ms"] > 0.0
     assert {target["verdict"] for target in saved["targets"]} <= {PASS, MISS}
+    assert saved["correctness"]["swim"]["frames"] == 3
+    assert [view["vertices"] for view in saved["views"]] == [Grid(cells=32, levels=3).vertex_count] * 2
     assert all(f"{target['target']}" in tiny[1] for target in saved["targets"])
+
+
+def test_a_plane_with_a_hole_has_a_gap_and_a_folded_one_an_overlap(monkeypatch):
+    """The measure sees what it is to rule out."""
+    whole = correctness.measure_seams(16, 3)
+    assert (whole.levels, whole.offsets, whole.gap, whole.overlap) == (3, 16, 0.0, 0.0)
+    faces = topology(16, 3)
+    area = (2.0 * Grid(1.0, 16, 3).half_extent) ** 2
+    torn = Topology(faces.vertex_count, faces.triangles, faces.quads[1:])
+    monkeypatch.setattr(correctness, "topology", lambda *_: torn)
+    assert correctness.measure_seams(16, 3).gap == 1.0 / area
+    turned = Topology(faces.vertex_count, faces.triangles, np.vstack([faces.quads[:1, ::-1], faces.quads[1:]]))
+    monkeypatch.setattr(correctness, "topology", lambda *_: turned)
+    assert correctness.measure_seams(16, 3).overlap == 1.0 / area
+
+
+def test_heights_are_as_exact_far_and_late():
+    found = correctness.measure_precision("matmul")
+    assert 0.0 < found.at_origin < 2e-6
+    assert 0.0 < found.far_and_late < 2e-6
 
 
 def test_the_plot_shows_the_rows(tiny, tmp_path):

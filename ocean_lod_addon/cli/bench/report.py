@@ -2,6 +2,7 @@
 """The results as text for the terminal."""
 
 from . import workloads
+from .correctness import Correctness
 from .in_blender import DEPSGRAPH, WRITE
 from .measurements import (
     DIRECT,
@@ -90,11 +91,23 @@ def scaling_lines(scaling: Scaling) -> list[str]:
 def view_lines(view: ViewResult) -> list[str]:
     """The plane under a camera."""
     return [
-        f"  {view.vertices} vertices, {view.waves} waves, {100 * view.share_in_view:.0f} % of them in view",
+        f"  {view.sea}; {view.vertices} vertices, {100 * view.share_in_view:.0f} % in view; {view.waves} waves",
         *(
-            f"  {name}: {_milliseconds(view.timings[name].median())} ms"
+            f"    {name}: {_milliseconds(view.timings[name].median())} ms"
             for name in (workloads.WHOLE, workloads.MOVING, workloads.IN_VIEW)
         ),
+    ]
+
+
+def correctness_lines(correctness: Correctness) -> list[str]:
+    """Swim, seams and precision."""
+    swim, seams, precision = correctness.swim, correctness.seams, correctness.precision
+    return [
+        f"  swim of a dolly and 90 degree pan, {swim.frames} frames, {swim.points} points: {swim.swim_max:.3%} of "
+        f"{swim.significant_wave_height:.2f} m at most, {swim.swim_rms:.4%} rms",
+        f"  {seams.levels} levels at {seams.offsets} offsets: gaps {seams.gap:g}, overlaps {seams.overlap:g}",
+        f"  height error over significant height: {precision.at_origin:.1e} at the origin, "
+        f"{precision.far_and_late:.1e} at 100 km and 1e6 s",
     ]
 
 
@@ -134,4 +147,6 @@ def _ratios(target):
 
 
 def _number(value):
+    if value == 0.0:
+        return "0"
     return f"{value:.1f}" if value >= 10.0 else f"{value:.2f}" if value >= 0.01 else f"{value:.1e}"

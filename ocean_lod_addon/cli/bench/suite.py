@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ...core.lod import Grid
 from ...core.sea import Sea
 from . import measurements, report, targets
+from .correctness import Correctness, measure_correctness
 from .machine import Machine, disturbance, load_average, this_machine
 from .measurements import Plan, Row, Scaling, ViewResult
 from .targets import Target
@@ -24,7 +25,8 @@ class Results:
     load_average: float | None
     rows: list[Row]
     scaling: Scaling
-    view: ViewResult
+    views: list[ViewResult]
+    correctness: Correctness
     menu_ocean: Timing | None
     targets: list[Target]
 
@@ -37,7 +39,8 @@ class Results:
             "load_average_at_end": self.load_average,
             "rows": [row.as_mapping() for row in self.rows],
             "scaling": self.scaling.as_mapping(),
-            "view": self.view.as_mapping(),
+            "views": [view.as_mapping() for view in self.views],
+            "correctness": self.correctness.as_mapping(),
             "menu_ocean": self.menu_ocean and self.menu_ocean.as_mapping(),
             "targets": [target.as_mapping() for target in self.targets],
         }
@@ -58,8 +61,12 @@ def measure_and_print(plan: Plan, contraction: str, with_blender: bool) -> Resul
     scaling = measurements.measure_scaling(plan, contraction)
     _print_section("Time of a surface", report.scaling_lines(scaling))
 
-    view = measurements.measure_view(plan, contraction)
-    _print_section("A plane to the horizon under a 35 mm lens at 1.7 m", report.view_lines(view))
+    views = measurements.measure_views(plan, contraction)
+    view_lines = [line for view in views for line in report.view_lines(view)]
+    _print_section("A plane to the horizon under a 35 mm lens at 1.7 m", view_lines)
+
+    correctness = measure_correctness(plan.swim_frames, plan.swim_grid, contraction)
+    _print_section("What must be right", report.correctness_lines(correctness))
 
     menu_ocean = measurements.measure_menu_ocean(plan) if with_blender else None
     if menu_ocean is not None:
@@ -69,13 +76,14 @@ def measure_and_print(plan: Plan, contraction: str, with_blender: bool) -> Resul
     reached = [
         *targets.frame_targets(rows, contraction),
         *targets.scaling_targets(scaling),
-        targets.culling_target(view),
+        *targets.culling_targets(views),
+        *targets.correctness_targets(correctness),
     ]
     _print_section("Targets", report.target_lines(reached))
     if disturbance():
         print(f"\n{disturbance()}")
     print(f"\nmeasured in {time.perf_counter() - started:.0f} s", flush=True)
-    return Results(machine, contraction, load_average(), rows, scaling, view, menu_ocean, reached)
+    return Results(machine, contraction, load_average(), rows, scaling, views, correctness, menu_ocean, reached)
 
 
 def _print_section(title, lines):

@@ -9,11 +9,8 @@ import numpy as np
 
 FRAMES_PER_SECOND = 24.0
 
-_BURST = 3
-"""Timed runs of a short contestant in one turn."""
-
-_SHORT = 0.05
-"""s; anything longer is timed once in a turn."""
+_MOST_RUNS, _TURN = 9, 0.1
+"""Timed runs of a contestant in one turn, at most, and s that they take together; what is longer is timed once."""
 
 _SETTLED = 0.3
 """s; anything shorter first runs once without being timed. By then the caches are its own, and the threads of a
@@ -123,7 +120,8 @@ def _turn(contestant, clock):
     first = _timed_run(contestant, clock)
     if sum(first) > _SETTLED:
         return [first]
-    return [_timed_run(contestant, clock) for _ in range(_BURST if sum(first) < _SHORT else 1)]
+    runs = min(max(1, int(_TURN / sum(first))), _MOST_RUNS) if sum(first) > 0.0 else _MOST_RUNS
+    return [_timed_run(contestant, clock) for _ in range(runs)]
 
 
 def _timed_run(contestant, clock):

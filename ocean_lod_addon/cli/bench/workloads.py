@@ -9,7 +9,7 @@ import numpy as np
 from ...core.camera_view import CameraView
 from ...core.contraction import CONTRACTIONS, Product
 from ...core.discretise import discretise
-from ...core.kernel import FrameKernel
+from ...core.kernel import FrameKernel, ReusedArray
 from ...core.lod import Grid, tiles
 from ...core.ocean import Ocean, Surface
 from ...core.sea import Sea
@@ -185,10 +185,10 @@ _CAMERA_HEIGHT = 1.7
 _CAMERA_SPEED = 20.0  # m/s; the finest levels step in every frame
 
 
-def view_case(grid: Grid, waves: int, contraction: str) -> ViewCase:
+def view_case(grid: Grid, sea: Sea, contraction: str) -> ViewCase:
     """The plane under a 35 mm lens at eye height: all of it, with the camera moving, and only what it sees."""
-    surface = Surface(Ocean(Sea(wave_count=waves), grid), contraction)
-    out = position_buffer(grid)
+    surface = Surface(Ocean(sea, grid), contraction)
+    out = ReusedArray(position_buffer(grid))
     still = surface.placement(level_camera(0.0))
     in_view = surface.placement(level_camera(0.0), final=True)
 
