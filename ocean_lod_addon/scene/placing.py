@@ -55,9 +55,24 @@ def placement_of_frame(ob, surface: Surface, scene, depsgraph) -> Placement:
     return placement
 
 
+def camera_of_frame(scene):
+    """The camera of the scene's current frame, an object, or None.
+
+    Where markers cut from one camera to another this is the marker's: Blender switches the scene's own camera only
+    after the handlers of the frame have run.
+    """
+    bound = [marker for marker in scene.timeline_markers if marker.camera and not marker.camera.hide_render]
+    if not bound:
+        return scene.camera
+    reached = [marker for marker in bound if marker.frame <= scene.frame_current]
+    if reached:
+        return max(reached, key=lambda marker: marker.frame).camera
+    return min(bound, key=lambda marker: marker.frame).camera
+
+
 def camera_view(ob, scene, depsgraph=None) -> CameraView | None:
-    """The scene's camera in an ocean's own coordinates, or None without a camera."""
-    camera = scene.camera
+    """The camera of the frame in an ocean's own coordinates, or None without a camera."""
+    camera = camera_of_frame(scene)
     if camera is None or camera.type != "CAMERA":
         return None
     if depsgraph is not None:
@@ -76,4 +91,5 @@ def view_of(camera, scene, to_ocean=None) -> CameraView:
         corners = corners * scene.unit_settings.scale_length
     extent = (corners[:, 0].min(), corners[:, 0].max(), corners[:, 1].min(), corners[:, 1].max())
     axes = np.stack([matrix[:3, 0], matrix[:3, 1], -matrix[:3, 2]])
+    axes /= np.linalg.norm(axes, axis=1)[:, None]  # an ocean in other units than metres is scaled
     return CameraView(matrix[:3, 3], axes, tuple(map(float, extent)), camera.data.type)

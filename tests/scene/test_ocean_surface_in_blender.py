@@ -115,14 +115,36 @@ def test_add_operator_can_be_undone_and_redone(ocean):
     assert len(bpy.data.objects) == count + 1
 
 
-def test_settings_rebuild_only_what_they_change(ocean):
-    polygons_before = ocean.data.polygons[0].as_pointer()
+def _set_wind(ob):
+    ob.ocean_lod.sea.systems[0].wind_speed = 14.0
+
+
+def _set_direction(ob):
+    ob.ocean_lod.sea.systems[0].direction = 1.0
+
+
+def _set_time(ob):
+    ob.ocean_lod.time.source, ob.ocean_lod.time.time = "KEYED", 100.0
+
+
+@pytest.mark.parametrize("change", [_set_wind, _set_direction, _set_time])
+def test_settings_rebuild_only_what_they_change(ocean, monkeypatch, change):
+    """Wind, its direction and the time move the vertices of a mesh that stays; time leaves the waves, too."""
+    built = []
+    monkeypatch.setattr(mesh_arrays, "build_topology", lambda *_: built.append("mesh"))
+    polygons_before, surface = ocean.data.polygons[0].as_pointer(), surface_of(ocean)
     vertices_before = mesh_arrays.read_positions(ocean.data)
-    ocean.ocean_lod.sea.systems[0].wind_speed = 14.0
-    assert ocean.data.polygons[0].as_pointer() == polygons_before, "new wind, same mesh"
+    change(ocean)
+    assert not built
+    assert ocean.data.polygons[0].as_pointer() == polygons_before, "the same mesh"
     assert not np.array_equal(mesh_arrays.read_positions(ocean.data), vertices_before)
+    assert (surface_of(ocean) is surface) == (change is _set_time)
+
+
+def test_another_plane_is_another_mesh(ocean):
+    vertices_before = len(ocean.data.vertices)
     ocean.ocean_lod.grid.levels = LEVELS + 1
-    assert len(ocean.data.vertices) == surface_of(ocean).vertex_count > len(vertices_before)
+    assert len(ocean.data.vertices) == surface_of(ocean).vertex_count > vertices_before
 
 
 def test_hidden_oceans_are_not_evaluated(ocean):
