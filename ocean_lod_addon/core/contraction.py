@@ -85,7 +85,7 @@ def multiply_without_blas(products) -> None:
         pass
 
 
-_PIECE_ROWS, _PIECE_COLUMNS = 128, 384
+_PIECE_ROWS, PIECE_COLUMNS = 128, 384
 """A piece of a product for one thread, about; a millisecond of work. For each row of `left`, einsum runs through
 all of `right`: so many columns of it stay in a core's own cache, and shorter runs would slow its inner loop."""
 
@@ -98,7 +98,7 @@ def _pieces(product):
         return
     rows, columns = product.out.shape
     for across in _even_slices(rows, _PIECE_ROWS):
-        for along in _even_slices(columns, _PIECE_COLUMNS):
+        for along in _even_slices(columns, PIECE_COLUMNS):
             yield Product(product.left[across], product.right[:, along], product.out[across, along])
 
 

@@ -23,7 +23,7 @@ from ..core.ocean_time import sea_time
 from ..core.plan import EFFECT_ATTRIBUTES, NORMAL_ATTRIBUTE, VELOCITY_ATTRIBUTE, Plan
 from ..core.sea import Sea
 from ..nodes.pass_through import ensure_pass_through
-from . import bump, clock, ocean_material, placing, planning, properties
+from . import bump, clock, frame_times, ocean_material, placing, planning, properties
 from . import mesh as mesh_arrays
 
 _MODIFIER_NAME = "Ocean LOD"
@@ -116,17 +116,26 @@ def update(ob, scene, depsgraph) -> None:
 
     Settings are read from the evaluated object: during a render, animation reaches only that one.
     """
+    stages = frame_times.StageClock()
+    planned, surface, placement = decide_frame(ob, scene, depsgraph)
+    stages.done("setup")
+    if placement.sees_water:
+        time = scene_sea_time(ob.evaluated_get(depsgraph), scene)
+        with_velocity = depsgraph.mode == "RENDER" or planned.plan.on("velocity")
+        _write_surface(ob, surface, placement, time, with_velocity, stages)
+        bump.update(ob, scene, surface, time, depsgraph)
+        stages.done("ripples")
+    frame_times.keep(ob, stages)
+
+
+def decide_frame(ob, scene, depsgraph):
+    """What a frame is made by: its plan, surface and placement. Raises OceanError."""
     evaluated = ob.evaluated_get(depsgraph)
     _check_transform(evaluated, scene)
-    final = depsgraph.mode == "RENDER"
-    planned = planning.PlannedOcean(evaluated, scene, depsgraph, final)
+    planned = planning.PlannedOcean(evaluated, scene, depsgraph, depsgraph.mode == "RENDER")
     surface = _surface(planned.ocean)
     ocean_material.set_surroundings(ob, depsgraph.scene_eval, planned.ocean.sea)
-    placement = placing.placement_of_frame(ob, surface, scene, depsgraph)
-    if placement.sees_water:
-        time = scene_sea_time(evaluated, scene)
-        _write_surface(ob, surface, placement, time, final or planned.plan.on("velocity"))
-        bump.update(ob, scene, surface, time, depsgraph)
+    return planned, surface, placing.placement_of_frame(ob, surface, scene, depsgraph)
 
 
 def update_reporting(ob, scene, depsgraph) -> None:
@@ -232,8 +241,9 @@ def _check_transform(ob, scene):
         raise OceanError("the object is tilted, allowed is a rotation about z")
 
 
-def _write_surface(ob, surface, placement, time, with_velocity=True):
+def _write_surface(ob, surface, placement, time, with_velocity=True, stages=None):
     """Write the surface into the mesh, and what its attributes ask for: a plan has put them there."""
+    stages = stages or frame_times.StageClock()
     mesh, ocean = ob.data, surface.ocean
     if not mesh_arrays.has_geometry_for(mesh, surface.vertex_count):
         raise OceanError(
@@ -244,6 +254,7 @@ def _write_surface(ob, surface, placement, time, with_velocity=True):
         mesh_arrays.write_slope_variance(mesh, surface.slope_variance())
         bump.write_static(mesh, surface)
         mesh_arrays.set_static_fingerprint(mesh, ocean.fingerprint)
+        stages.done("setup")
     attributes = mesh.attributes
     with _evaluation:
         positions, more = _buffer(surface.vertex_count, 3), {}
@@ -252,14 +263,19 @@ def _write_surface(ob, surface, placement, time, with_velocity=True):
         if VELOCITY_ATTRIBUTE in attributes and with_velocity:
             more[VELOCITY] = _buffer(surface.vertex_count, VELOCITY.columns, number=1)
         surface.positions(time, placement, positions, more)
+        stages.done("products")
         mesh_arrays.write_positions(mesh, positions.array)
         if VELOCITY in more:
             mesh_arrays.write_vectors(mesh, VELOCITY_ATTRIBUTE, more[VELOCITY].array)
+        stages.done("write")
         if TANGENTS in more:
             normals = _normals(surface.vertex_count)
             surface_normals(more[TANGENTS].array, normals)
+            stages.done("normals")
             mesh_arrays.write_vectors(mesh, NORMAL_ATTRIBUTE, normals)
+            stages.done("write")
     bump.write_placement(mesh, surface, placement)
+    stages.done("write")
 
 
 def _apply_ripples(ob, scene, ocean):

@@ -20,20 +20,25 @@ class PlannedOcean:
 
     def __init__(self, ob, scene, depsgraph=None, final: bool = True):
         """For an (evaluated) object at the scene's current frame, for a `final` picture or the viewport."""
-        asked = properties.read_ocean(ob.ocean_lod, clock.frames_per_second(scene))
-        settings = Settings(
-            asked.sea,
-            asked.grid,
-            asked.framing,
-            properties.read_material(ob.ocean_lod),
-            asked.ripples,
-            properties.read_effects(ob.ocean_lod),
-        )
-        waves = _waves(asked.sea, asked.grid.shortest_wavelength)
+        settings = read_settings(ob, scene)
+        waves = _waves(settings.sea, settings.grid.shortest_wavelength)
         self.plan: Plan = decide(scene_facts(ob, scene, depsgraph, final), settings, waves)
         used = effective(settings, self.plan)
         self.ocean = Ocean(used.sea, used.grid, used.framing, used.ripples)
         self.material = used.material
+
+
+def read_settings(ob, scene) -> Settings:
+    """What the artist has set on an (evaluated) object, in a scene of this frame rate. Raises OceanError."""
+    asked = properties.read_ocean(ob.ocean_lod, clock.frames_per_second(scene))
+    return Settings(
+        asked.sea,
+        asked.grid,
+        asked.framing,
+        properties.read_material(ob.ocean_lod),
+        asked.ripples,
+        properties.read_effects(ob.ocean_lod),
+    )
 
 
 def scene_facts(ob, scene, depsgraph=None, final: bool = True) -> Facts:

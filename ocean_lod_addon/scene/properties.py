@@ -110,6 +110,33 @@ TimeProperties = rna.property_group("OCEAN_LOD_TimeProperties", rna.annotations(
 MaterialProperties = rna.property_group(
     "OCEAN_LOD_MaterialProperties", rna.annotations(MaterialSettings, _material_changed)
 )
+KeptPlaneProperties = rna.property_group(
+    "OCEAN_LOD_KeptPlaneProperties", rna.annotations(Grid, None, not_animatable=parameters_of(Grid))
+)
+QualityProperties = rna.property_group(
+    "OCEAN_LOD_QualityProperties",
+    {
+        "name": bpy.props.StringProperty(
+            name="Quality", description="The quality that the plane was last set to", options=set()
+        ),
+        "budget": bpy.props.FloatProperty(
+            name="Budget (ms)",
+            description="Time that a frame of this ocean may take on this machine, up to the object that Blender"
+            " has evaluated; rendering not counted",
+            default=40.0,
+            min=0.1,
+            soft_max=200.0,
+            max=1e5,
+            step=100,
+            precision=1,
+            options=set(),
+        ),
+        "sized": bpy.props.PointerProperty(type=KeptPlaneProperties),
+        "made": bpy.props.PointerProperty(type=KeptPlaneProperties),
+    },
+)
+"""`sized` is the plane as it was before a quality was chosen, `made` as the quality has left it."""
+
 OceanProperties = rna.property_group(
     "OCEAN_LOD_OceanProperties",
     {
@@ -121,6 +148,7 @@ OceanProperties = rna.property_group(
         "framing": bpy.props.PointerProperty(type=FramingProperties),
         "ripples": bpy.props.PointerProperty(type=RippleProperties),
         "effects": bpy.props.PointerProperty(type=EffectsProperties),
+        "quality": bpy.props.PointerProperty(type=QualityProperties),
         "time": bpy.props.PointerProperty(type=TimeProperties),
         "material": bpy.props.PointerProperty(type=MaterialProperties),
     },
@@ -135,6 +163,8 @@ _CLASSES = (
     EffectsProperties,
     TimeProperties,
     MaterialProperties,
+    KeptPlaneProperties,
+    QualityProperties,
     OceanProperties,
 )
 
@@ -178,6 +208,29 @@ def read_ripples(properties) -> Ripples:
 def read_effects(properties) -> Effects:
     """The artist's word on each effect."""
     return rna.read(Effects, properties.effects)
+
+
+def sized_plane(properties) -> tuple[Grid, str]:
+    """The plane as it was sized before a quality was chosen, and that quality.
+
+    A plane that was changed since then is itself the sized one, and its quality is "".
+    """
+    grid, quality = rna.read(Grid, properties.grid), properties.quality
+    if quality.name and rna.read(Grid, quality.made) == grid:
+        return rna.read(Grid, quality.sized), quality.name
+    return grid, ""
+
+
+def write_quality(properties, name: str, sized: Grid, settings) -> None:
+    """Put plane, ripples and effects of a quality (core.plan.Settings) into an object's properties, and remember
+    the plane that it was made from; the caller refreshes the ocean."""
+    with many_changes():
+        rna.write(settings.grid, properties.grid)
+        rna.write(settings.ripples, properties.ripples)
+        rna.write(settings.effects, properties.effects)
+        rna.write(settings.grid, properties.quality.made)
+        rna.write(sized, properties.quality.sized)
+        properties.quality.name = name
 
 
 def read_time(properties) -> OceanTime:

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import effects, framing, menus, operators, panels, preset_operators, readback_cache, ripples
+from . import effects, framing, menus, operators, panels, preset_operators, quality, readback_cache, ripples
 
 _CLASSES = (
     *operators.CLASSES,
@@ -12,6 +12,7 @@ _CLASSES = (
     *panels.CLASSES,
     *framing.CLASSES,
     *ripples.CLASSES,
+    *quality.CLASSES,
     *effects.CLASSES,
 )
 

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A second of measurements that finds the prices of the stages which NumPy does by itself."""
+
+import time
+from dataclasses import fields, replace
+
+import numpy as np
+
+from ..column_blocks import POSITION, TANGENTS
+from ..contraction import CONTRACTIONS, fastest_contraction
+from ..discretise import discretise
+from ..kernel import FrameKernel
+from ..lod import Grid
+from ..normals import surface_normals
+from ..ocean import Ocean
+from ..ripple_settings import Ripples
+from ..ripples.bump import bump_layout
+from ..ripples.spectrum import ripple_spectrum
+from ..ripples.synthesis import tile_syntheses
+from ..sea import Sea
+from .model import CostModel, fit_prices
+from .work import Work, ripple_work, work_of
+
+_BOTH = (POSITION, TANGENTS)
+_PLANES = (
+    (64, 10, 48, _BOTH),
+    (96, 8, 96, _BOTH),
+    (128, 8, 16, _BOTH),
+    (128, 8, 224, (POSITION,)),
+    (192, 8, 160, _BOTH),
+    (256, 8, 64, _BOTH),
+    (320, 8, 128, (POSITION,)),
+    (512, 1, 24, (POSITION,)),
+    (384, 1, 192, _BOTH),
+)
+"""(cells, levels, waves, columns): together they tell the prices of arithmetic, of memory and of calls apart."""
+
+_ROUNDS = 7
+_PATIENCE = 0.06
+"""s; what has taken this long in all sits out the rounds that are left, after the first two."""
+
+_FRAME = 1.0 / 24.0
+
+_RIPPLES = tuple(Ripples(resolution=texels) for texels in ("256", "512", "1024"))
+_NO_RIPPLES = Ripples(kind="off")
+_NORMALS = (1 << 13, 1 << 17)
+
+_NOTHING = Work(*[0.0] * len(fields(Work)))
+
+
+def undisturbed_seconds(runs) -> list[float]:
+    """Seconds that each of some functions of the time takes: the fastest of some rounds of all in turns.
+
+    What else the machine does only ever adds to a time, and in turns it can not hit one of them alone. A first
+    round is not counted.
+    """
+    for run in runs:
+        run(0.0)
+    taken = [[] for _ in runs]
+    for number in range(1, _ROUNDS + 1):
+        for run, times in zip(runs, taken, strict=True):
+            if number > 2 and sum(times) > _PATIENCE:
+                continue
+            start = time.perf_counter()
+            run(_FRAME * number)
+            times.append(time.perf_counter() - start)
+    return [min(times) for times in taken]
+
+
+def probe(contraction: str | None = None) -> CostModel:
+    """Prices of waves, normals and ripples on this machine, with a contraction of core.contraction or its own."""
+    return CostModel(measured_prices(surface_cases(contraction) | {"ripples": ripple_cases()}))
+
+
+def surface_cases(contraction: str | None = None) -> dict[str, list]:
+    """What tells the prices of waves and normals."""
+    surfaces = [_Surface(contraction or fastest_contraction(), *plane) for plane in _PLANES]
+    return {
+        "factors": [(surface.work, surface.form_factors) for surface in surfaces],
+        "products": [(surface.work, surface.multiply) for surface in surfaces],
+        "normals": [_normals_case(count) for count in _NORMALS],
+    }
+
+
+def ripple_cases(show=None) -> list:
+    """What tells the price of ripples; `show`(texels) gives a function that each new image is handed to."""
+    return [_ripples_case(ripples, show and show(ripples.texels)) for ripples in _RIPPLES]
+
+
+def measured_prices(cases: dict[str, list]) -> dict[str, tuple[float, ...]]:
+    """The prices of stages from cases (work, run) of each, all measured in turns."""
+    everything = [(stage, work, run) for stage, pairs in cases.items() for work, run in pairs]
+    seconds = undisturbed_seconds([run for _, _, run in everything])
+    prices = {}
+    for stage in cases:
+        own = [(work, taken) for (name, work, _), taken in zip(everything, seconds, strict=True) if name == stage]
+        prices[stage] = fit_prices(stage, [work for work, _ in own], [taken for _, taken in own])
+    return prices
+
+
+class _Surface:
+    """A plane with waves, whose factors and products are timed apart."""
+
+    def __init__(self, contraction, cells, levels, count, blocks):
+        grid = Grid(cell_size=0.1, cells=cells, levels=levels)
+        ocean = Ocean(Sea(wave_count=count), grid, ripples=_NO_RIPPLES)
+        waves = discretise(ocean.sea, grid.shortest_wavelength)
+        self._kernel = FrameKernel(grid, waves, contraction)
+        self._multiply = CONTRACTIONS[contraction]
+        self._anchors = np.zeros((levels, 2))
+        self._outputs = {
+            block: np.empty((self._kernel.vertex_count, block.columns), np.float32) for block in blocks
+        }
+        self.work = work_of(ocean, waves, blocks)
+
+    def form_factors(self, time):
+        """The part of a frame that depends on time."""
+        self._kernel.fill_factors(time, self._anchors, self._outputs)
+
+    def multiply(self, _time):
+        """The other part."""
+        self._multiply(
+            [p for block, out in self._outputs.items() for p in self._kernel.products(out, block=block)]
+        )
+
+
+def _normals_case(count):
+    tangents = np.random.Generator(np.random.PCG64(0)).random((count, TANGENTS.columns), np.float32)
+    out = np.empty((count, 3), np.float32)
+    return replace(_NOTHING, normals=float(count)), lambda _time: surface_normals(tangents, out)
+
+
+def _ripples_case(ripples, show):
+    ocean = Ocean(ripples=ripples)
+    tile = bump_layout(ripples, ocean.grid.shortest_wavelength).tiles[0]
+    density = ripple_spectrum(ocean.sea, ocean.grid.shortest_wavelength).density
+    synthesis = tile_syntheses(density, ocean.sea, (tile,))[0]
+
+    def run(time):
+        out = np.empty((tile.texels, tile.texels, 4), np.float32)
+        synthesis.image(time, out)
+        if show is not None:
+            show(out)
+
+    return replace(_NOTHING, **ripple_work((tile,))), run

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The work that a frame of an ocean takes, counted from its settings without doing it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..column_blocks import TANGENTS, ColumnBlock
+from ..contraction import PIECE_COLUMNS
+from ..lod import Grid, tiles
+from ..ocean import Ocean
+from ..ripples.bump import bump_layout
+from ..waves import WaveSet
+from ..windows import window_reach
+
+_LONGEST_RUN = 512
+"""Rows of one product, about."""
+
+
+@dataclass(frozen=True)
+class Work:
+    """Counts of what a frame does.
+
+    multiplications  multiply-adds of all matrix products
+    runs             rows of the products times waves: each is one run over columns that lie side by side
+    floats           numbers that they write
+    products         how many there are
+    factor_terms     complex numbers of the factors that are formed anew
+    vertices         of the mesh
+    normals          vertices whose normal is made from the waves, 0 without
+    vectors          arrays of vectors that are handed to Blender
+    texels           texels of ripple images that are written, times the bands in each
+    far_texels       those of images of so many texels that a processor's caches do not hold them
+    images           how many ripple images are written
+    """
+
+    multiplications: float
+    runs: float
+    floats: float
+    products: float
+    factor_terms: float
+    vertices: float
+    normals: float
+    vectors: float
+    texels: float
+    far_texels: float
+    images: float
+
+
+def work_of(
+    ocean: Ocean, waves: WaveSet, blocks: tuple[ColumnBlock, ...], visible=None, wave_limit: int | None = None
+) -> Work:
+    """The work of one frame with these column blocks; `visible` and `wave_limit` as in `Placement`."""
+    counts = _waves_of_tiles(ocean.grid, waves.wavelength)
+    plane = tiles(ocean.grid.cells, ocean.grid.levels)
+    vertices = np.array([tile.vertex_count for tile in plane], dtype=float)
+    if wave_limit is not None:
+        counts = np.minimum(counts, wave_limit)
+    if visible is not None:
+        counts = np.where(np.asarray(visible), counts, 0)
+    base = 4 if ocean.framing.curved_earth else 2
+    columns = sum(block.columns for block in blocks)
+    inner = 2 * counts + base
+    rows = np.array([tile.rows * _pieces(tile.columns, blocks) for tile in plane], dtype=float)
+    return Work(
+        multiplications=float(columns * np.sum(inner * vertices)),
+        runs=float(np.sum(inner * rows)),
+        floats=float(columns * vertices.sum()),
+        products=float(len(blocks) * _run_count(plane, counts)),
+        factor_terms=float(_factor_terms(ocean.grid, waves.wavelength)),
+        vertices=float(vertices.sum()),
+        normals=float(vertices.sum()) if TANGENTS in blocks else 0.0,
+        vectors=float(len(blocks)),
+        **ripple_work(_moving_images(ocean)),
+    )
+
+
+def _pieces(columns, blocks):
+    """Into how many runs over neighbouring columns a row of a tile is cut, all blocks together."""
+    return sum(max(1, round(columns * block.columns / PIECE_COLUMNS)) for block in blocks)
+
+
+def _waves_of_tiles(grid: Grid, wavelength):
+    """How many waves are not zero on each tile, (tiles,): those that reach its place nearest to the centre."""
+    reach = np.sort(window_reach(grid, wavelength))
+    nearest = np.empty(len(tiles(grid.cells, grid.levels)))
+    for number, tile in enumerate(tiles(grid.cells, grid.levels)):
+        distance = np.abs(np.arange(grid.cells + 1) - grid.cells // 2) * grid.spacing(tile.level)
+        rows = distance[tile.row_start : tile.row_stop].min()
+        columns = distance[tile.column_start : tile.column_stop].min()
+        nearest[number] = max(rows, columns) - (grid.spacing(tile.level) if tile.level else 0.0)
+    return len(reach) - np.searchsorted(reach, nearest, side="right")
+
+
+def _run_count(plane, counts):
+    """How many products neighbouring tiles are grouped into, about: strips of rows with as many waves."""
+    runs, rows, last = 0, 0, None
+    for tile, count in zip(plane, counts, strict=True):
+        goes_on = last is not None and (tile.level, tile.column_start, tile.row_start) == last[:3]
+        if not goes_on or abs(count - last[3]) > min(count, last[3]) / 8 or rows + tile.rows > _LONGEST_RUN:
+            runs, rows = runs + 1, 0
+        rows += tile.rows
+        last = (tile.level, tile.column_start, tile.row_stop, count)
+    return runs
+
+
+def _factor_terms(grid: Grid, wavelength):
+    """Lines times waves of all levels: each wave on those that it reaches."""
+    reach = window_reach(grid, wavelength)
+    inner = [0.0] + [grid.spacing(level) * (grid.cells / 4 - 1) for level in range(1, grid.levels)]
+    return sum((grid.cells + 1) * int(np.count_nonzero(reach > distance)) for distance in inner)
+
+
+_CACHED_TEXELS = 512
+"""Texels along a side of an image, in complex numbers of 8 bytes, that caches hold: 2 MB."""
+
+
+def ripple_work(images) -> dict[str, float]:
+    """The counts of writing these images (ripples.layout.Tile), by their names in `Work`."""
+    texels = [float(image.texels**2 * len(image.bands)) for image in images]
+    far = [count for count, image in zip(texels, images, strict=True) if image.texels > _CACHED_TEXELS]
+    return {"texels": sum(texels), "far_texels": float(sum(far)), "images": float(len(images))}
+
+
+def _moving_images(ocean):
+    """The ripple images that every frame writes: none for a still one."""
+    if ocean.ripples.kind != "spectral":
+        return ()
+    return bump_layout(ocean.ripples, ocean.grid.shortest_wavelength).tiles

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a frame of an ocean costs on this machine, and the quality that it can afford.
+
+Prices are measured, settings chosen by them are written, once, by operators and the command line; no frame depends
+on a time.
+"""
+
+import contextlib
+from dataclasses import fields, replace
+
+import bpy
+import numpy as np
+
+from ..core.cost import probe
+from ..core.cost.budget import Choice, choose
+from ..core.cost.model import CostModel
+from ..core.cost.planned import planned_work
+from ..core.cost.quality import QUALITIES, Quality, apply, ladder
+from ..core.cost.work import Work
+from ..core.errors import OceanError
+from ..core.lod import Grid
+from ..core.material_settings import MaterialSettings
+from ..core.plan import NORMAL_ATTRIBUTE
+from ..core.sea import Sea, WaveSystem
+from . import mesh as mesh_arrays
+from . import ocean_object, placing, planning, properties
+from .ripple_images import IMAGE_KEY
+
+_PROBED = (
+    (64, 8, True, "off"),
+    (64, 8, False, "off"),
+    (128, 8, True, "off"),
+    (128, 8, False, "off"),
+    (64, 8, True, "random"),
+)
+"""(cells, levels, normals, ripples) of the objects that are measured in Blender."""
+
+_CALM = Sea(systems=(WaveSystem(wind_speed=0.0),))
+"""Neither waves nor ripples: nothing is computed for it."""
+
+_NOTHING = Work(*[0.0] * len(fields(Work)))
+
+
+class _Machine:
+    """The prices of this machine, once they were measured."""
+
+    def __init__(self):
+        self.model: CostModel | None = None
+
+
+_machine = _Machine()
+
+
+def model() -> CostModel | None:
+    """The prices of this machine, or None before `measure_machine`."""
+    return _machine.model
+
+
+def measure_machine() -> CostModel:
+    """Find the prices of this machine: about a second."""
+    with _fresh_data():
+        cases = probe.surface_cases() | {"ripples": probe.ripple_cases(_shown_image)} | _blender_cases()
+        _machine.model = CostModel(probe.measured_prices(cases))
+    return _machine.model
+
+
+@contextlib.contextmanager
+def _fresh_data():
+    """What is made in Blender within this context is removed after it."""
+    kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.node_groups, bpy.data.images)
+    scenes = set(bpy.data.scenes)
+    before = [set(kind) for kind in kinds]
+    try:
+        yield
+    finally:
+        for scene in set(bpy.data.scenes) - scenes:
+            bpy.data.scenes.remove(scene)
+        for kind, kept in zip(kinds, before, strict=True):
+            bpy.data.batch_remove(set(kind) - kept)
+
+
+def _shown_image(texels):
+    image = bpy.data.images.new("probe", texels, texels, alpha=True, float_buffer=True, is_data=True)
+
+    def show(pixels):
+        image.pixels.foreach_set(pixels.ravel())
+        image.update_tag()
+
+    return show
+
+
+def _blender_cases():
+    """Objects in scenes of their own: handing positions over, and Blender's evaluation of what has changed."""
+    probed = [_ProbedObject(*each) for each in _PROBED]
+    return {
+        "setup": [(probed[-1].work, probed[-1].decide)],  # with waves to decide about
+        "write": [(one.work, one.write) for one in probed],
+        "blender": [(one.work, one.evaluate) for one in probed],
+    }
+
+
+class _ProbedObject:
+    """An ocean whose vertices move without being computed."""
+
+    def __init__(self, cells, levels, with_normals, ripples):
+        self._scene = bpy.data.scenes.new("probe")
+        sea = _CALM if ripples == "off" else Sea()
+        ob = ocean_object.create(self._scene, _CALM, Grid(cells=cells, levels=levels), MaterialSettings())
+        with properties.many_changes():
+            ob.ocean_lod.ripples.kind = ripples
+            ob.ocean_lod.ripples.resolution = "256"
+            properties.write_sea(sea, ob.ocean_lod)
+            ob.ocean_lod.effects.analytic_normals = "on" if with_normals else "off"
+        self._scene.collection.objects.link(ob)
+        ocean_object.refresh(ob, self._scene)
+        self._object = ob
+        self.evaluate()
+        self._positions = mesh_arrays.read_positions(ob.data)
+        self._image = next((i for i in bpy.data.images if i.get(IMAGE_KEY, "").startswith(ob.name)), None)
+        self._with_normals = with_normals
+        vertices = float(len(self._positions))
+        self.work = replace(
+            _NOTHING,
+            vertices=vertices,
+            normals=vertices * with_normals,
+            vectors=1.0 + with_normals,
+            images=float(self._image is not None),
+        )
+
+    def decide(self, _time):
+        """What a frame decides before it computes."""
+        depsgraph = self._scene.view_layers[0].depsgraph
+        ocean_object.decide_frame(self._object, self._scene, depsgraph)
+
+    def write(self, _time):
+        """Positions, and normals where there are any."""
+        mesh = self._object.data
+        self._positions[:, 2] += np.float32(1e-3)
+        mesh_arrays.write_positions(mesh, self._positions)
+        if self._with_normals:
+            mesh_arrays.write_vectors(mesh, NORMAL_ATTRIBUTE, self._positions)
+        if self._image is not None:
+            self._image.update_tag()
+
+    def evaluate(self, _time=0.0):
+        """What Blender does about it."""
+        self._scene.view_layers[0].update()
+
+
+def predict(ob, scene, settings=None, final: bool = True) -> dict[str, float]:
+    """Seconds of each stage of an ocean's frame, for its own settings or others. Raises OceanError.
+
+    Of the picture rendered at the scene's current frame, or, not `final`, of the viewport's. Without prices {}.
+    """
+    if _machine.model is None:
+        return {}
+    facts = planning.scene_facts(ob, scene, final=final)
+    settings = settings or planning.read_settings(ob, scene)
+    return _machine.model.predict(planned_work(facts, settings, placing.camera_view(ob, scene)))
+
+
+def set_quality(ob, scene, name: str, quality: Quality | None = None) -> None:
+    """Give an ocean the quality called `name` in core.cost.quality, or one between two of them."""
+    sized, _ = properties.sized_plane(ob.ocean_lod)
+    settings = replace(planning.read_settings(ob, scene), grid=sized)
+    properties.write_quality(ob.ocean_lod, name, sized, apply(quality or QUALITIES[name], settings))
+    ocean_object.refresh(ob, scene)
+
+
+def meet_budget(ob, scene, seconds: float, final: bool = True) -> Choice:
+    """Give an ocean the most accurate quality whose frames take `seconds` at most, and say which and why.
+
+    Measures the machine if that has not been done. If even the cheapest is too slow that is chosen, and the choice
+    says so. Raises OceanError.
+    """
+    if seconds <= 0.0:
+        raise OceanError(f"the budget is {1e3 * seconds:g} ms, allowed is more than 0 ms")
+    if _machine.model is None:
+        measure_machine()
+    sized, _ = properties.sized_plane(ob.ocean_lod)
+    settings = replace(planning.read_settings(ob, scene), grid=sized)
+
+    def predicted(rung):
+        return predict(ob, scene, apply(rung.quality, settings), final)
+
+    choice = choose(ladder(sized), predicted, seconds)
+    set_quality(ob, scene, choice.rung.name, choice.rung.quality)
+    return choice
