@@ -24,7 +24,7 @@ TESTS ?=
 # Passed on to the benchmark, for example: make bench BENCH=--full
 BENCH ?=
 
-.PHONY: help demo test test-5.2 test-4.5 fuzz fuzz-5.2 fuzz-4.5 hard-cases lint bench bench-without-blas zip clean \
+.PHONY: help demo test test-5.2 test-4.5 fuzz fuzz-5.2 fuzz-4.5 hard-cases lint bench bench-without-blas cost zip clean \
 	environment-blender-5.2 environment-blender-4.5 \
 	environment-lint
 
@@ -36,6 +36,7 @@ help:
 	@echo 'make lint    check the style of the code'
 	@echo 'make bench   measure the time a frame takes (BENCH=--full for the whole table)'
 	@echo 'make bench-without-blas    the same, and with a NumPy without BLAS, which it compiles'
+	@echo 'make cost    measure what accuracy costs in time, into docs/accuracy-and-cost.md'
 	@echo 'make zip     build the extension, to install in Blender, in dist/'
 	@echo 'make clean   remove the environments and everything that was built'
 
@@ -81,6 +82,13 @@ bench: environment-blender-5.2
 bench-without-blas: environment-blender-5.2
 	$(BLENDER_5.2) tools/numpy_without_blas.py
 	$(BLENDER_5.2) -m ocean_lod_addon bench --numpy-without-blas .env/numpy-without-blas/bin/python $(BENCH)
+
+# Passed on to the measurement, for example: make cost COST=--quick
+COST ?= --full
+
+cost: environment-blender-5.2
+	$(BLENDER_5.2) -m ocean_lod_addon cost $(COST) --output out/cost.json
+	$(BLENDER_5.2) tools/accuracy_document.py out/cost.json
 
 zip: environment-blender-5.2
 	$(BLENDER_5.2) tools/extension.py

@@ -34,6 +34,7 @@ NEEDS_BLENDER = {"nodes", "scene", "ui"} | BLENDER_MODULES
 OPTIONAL = {
     "ocean_lod_addon/cli/sea_plot.py": {"matplotlib"},
     "ocean_lod_addon/cli/bench/plot.py": {"matplotlib"},
+    "ocean_lod_addon/cli/cost/plot.py": {"matplotlib"},
 }
 
 FORBIDDEN_CALLS = {"eval", "exec", "compile", "__import__"}

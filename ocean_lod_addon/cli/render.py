@@ -2,16 +2,18 @@
 """`render`: a still or an animation of a preset's shot, or of an existing .blend file."""
 
 import os
+import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..core import presets
+from ..core.cost.quality import QUALITIES
 from ..core.errors import OceanError
 from ..core.lod import Grid
 from ..core.sea import LARGEST_SEED
 from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, frame_needs
-from .arguments import FrameRange, frame_range, resolution, whole_number
+from .arguments import FrameRange, frame_range, real_number, resolution, whole_number
 
 NAME = "render"
 HELP = "Render a preset's shot, or an existing .blend file, to PNG, EXR or MP4."
@@ -41,6 +43,16 @@ def add_arguments(parser) -> None:
         "--samples", type=whole_number(1, 1 << 20), metavar="N", help="samples per pixel (64, or the file's)"
     )
     parser.add_argument("--denoise", action="store_true", help="clean up the noise of Cycles")
+    effort = parser.add_mutually_exclusive_group()
+    effort.add_argument(
+        "--quality", choices=tuple(QUALITIES), help="effort spent on mesh and ripples (standard, or the file's)"
+    )
+    effort.add_argument(
+        "--budget-ms",
+        type=real_number(0.01, 1e6),
+        metavar="MS",
+        help="the best quality whose frames take this long at most on this machine, before rendering",
+    )
     parser.add_argument("--output", default="ocean.png", metavar="PATH", help=".png, .exr or .mp4 (%(default)s)")
     parser.add_argument(
         "--seed", type=whole_number(0, LARGEST_SEED), default=0, metavar="N", help="another sea of the same kind"
@@ -63,6 +75,7 @@ def run(options) -> None:
     else:
         scene = _build(options)
         frames = frames or FrameRange(1, 1)
+    _set_quality(scene, options)
     _set_output(scene, output, output_format, frames)
     if options.save_blend:
         _save(Path(options.save_blend))
@@ -133,6 +146,19 @@ def _build(options):
     sea = presets.with_seed(preset.sea, options.seed)
     scene.collection.objects.link(ocean_object.create(scene, sea, grid, preset.material))
     return scene
+
+
+def _set_quality(scene, options):
+    """Choose a quality, once: another machine that is to render the same is given it by name."""
+    from ..scene import costing, ocean_object
+
+    oceans = [ob for ob in scene.objects if ocean_object.is_ocean(ob)]
+    for ob in oceans:
+        if options.quality:
+            costing.set_quality(ob, scene, options.quality)
+        elif options.budget_ms is not None:
+            choice = costing.meet_budget(ob, scene, 1e-3 * options.budget_ms / len(oceans))
+            print(choice.explain(), file=sys.stdout if choice.fits else sys.stderr, flush=True)
 
 
 def _ensure_registered():

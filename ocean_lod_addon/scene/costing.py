@@ -5,7 +5,6 @@ Prices are measured, settings chosen by them are written, once, by operators and
 on a time.
 """
 
-import contextlib
 from dataclasses import fields, replace
 
 import bpy
@@ -24,6 +23,7 @@ from ..core.plan import NORMAL_ATTRIBUTE
 from ..core.sea import Sea, WaveSystem
 from . import mesh as mesh_arrays
 from . import ocean_object, placing, planning, properties
+from .fresh_data import fresh_data
 from .ripple_images import IMAGE_KEY
 
 _PROBED = (
@@ -58,25 +58,10 @@ def model() -> CostModel | None:
 
 def measure_machine() -> CostModel:
     """Find the prices of this machine: about a second."""
-    with _fresh_data():
+    with fresh_data():
         cases = probe.surface_cases() | {"ripples": probe.ripple_cases(_shown_image)} | _blender_cases()
         _machine.model = CostModel(probe.measured_prices(cases))
     return _machine.model
-
-
-@contextlib.contextmanager
-def _fresh_data():
-    """What is made in Blender within this context is removed after it."""
-    kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.node_groups, bpy.data.images)
-    scenes = set(bpy.data.scenes)
-    before = [set(kind) for kind in kinds]
-    try:
-        yield
-    finally:
-        for scene in set(bpy.data.scenes) - scenes:
-            bpy.data.scenes.remove(scene)
-        for kind, kept in zip(kinds, before, strict=True):
-            bpy.data.batch_remove(set(kind) - kept)
 
 
 def _shown_image(texels):

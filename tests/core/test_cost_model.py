@@ -41,15 +41,15 @@ def test_counted_work_is_what_the_kernel_does(grid, waves):
     # A run of tiles takes the waves of the one that needs most, at most an eighth more; nothing else differs.
     ocean = Ocean(Sea(wave_count=waves), grid)
     components = discretise(ocean.sea, grid.shortest_wavelength)
-    kernel = FrameKernel(grid, components)
+    kernel = FrameKernel(grid, components, "matmul")
     counted = work_of(ocean, components, (POSITION, TANGENTS))
     kernel.fill_factors(0.0, np.zeros((grid.levels, 2)), (POSITION, TANGENTS))
     outputs = {b: np.empty((kernel.vertex_count, b.columns), np.float32) for b in (POSITION, TANGENTS)}
     products = [p for block, out in outputs.items() for p in kernel.products(out, block=block)]
-    multiplications = sum(p.left.shape[0] * p.left.shape[1] * p.right.shape[1] for p in products)
+    multiplications = sum(0.5 * p.operations for p in products)
     assert counted.multiplications <= multiplications <= 1.125 * counted.multiplications
     assert counted.floats == sum(p.out.size for p in products) == 8 * grid.vertex_count
-    assert counted.products == pytest.approx(len(products), rel=0.2)
+    assert counted.products == pytest.approx(len(products), rel=0.35)  # a count of calls, microseconds each
     assert counted.vertices == counted.normals == grid.vertex_count
 
 
@@ -60,12 +60,12 @@ def test_work_of_what_is_in_view_and_of_a_share_of_the_waves():
     tiles = FrameKernel(ocean.grid, waves).tile_count
     none = work_of(ocean, waves, (POSITION,), visible=np.zeros(tiles, bool))
     half = work_of(ocean, waves, (POSITION,), wave_limit=64)
-    assert none.multiplications == 3 * 2 * ocean.grid.vertex_count  # the flat plane: x and 1
+    assert none.multiplications == none.floats == 0.0  # still water is written once
     assert none.multiplications < half.multiplications < whole.multiplications
 
 
 def test_work_of_ripples():
-    # A still image is not written anew, moving ones are: texels times bands.
+    # Texels times bands.
     spectral = work_of(Ocean(ripples=Ripples(resolution="256")), discretise(Sea(), 0.4), ())
     assert spectral.texels % 256**2 == 0
     assert spectral.far_texels == 0.0

@@ -4,7 +4,6 @@
 Each object has a scene of its own, so that evaluating its view layer evaluates nothing else.
 """
 
-import contextlib
 import importlib.util
 from dataclasses import dataclass
 
@@ -58,21 +57,11 @@ class _InScene:
         return len(self.ob.evaluated_get(depsgraph).data.vertices)
 
 
-@contextlib.contextmanager
 def fresh_data():
-    """What is made in Blender within this context is removed after it."""
-    import bpy
+    """A context: what is made in Blender within it is removed after it."""
+    from ...scene.fresh_data import fresh_data as context
 
-    kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.node_groups, bpy.data.images)
-    scenes_before = set(bpy.data.scenes)
-    before = [set(kind) for kind in kinds]
-    try:
-        yield
-    finally:
-        for scene in set(bpy.data.scenes) - scenes_before:
-            bpy.data.scenes.remove(scene)
-        for kind, kept in zip(kinds, before, strict=True):
-            bpy.data.batch_remove(set(kind) - kept)
+    return context()
 
 
 def _new_ocean(sea, grid):

@@ -106,7 +106,7 @@ class _Surface:
         ocean = Ocean(Sea(wave_count=count), grid, ripples=_NO_RIPPLES)
         waves = discretise(ocean.sea, grid.shortest_wavelength)
         self._kernel = FrameKernel(grid, waves, contraction)
-        self._multiply = CONTRACTIONS[contraction]
+        self._multiply = CONTRACTIONS[contraction].multiply
         self._anchors = np.zeros((levels, 2))
         self._outputs = {
             block: np.empty((self._kernel.vertex_count, block.columns), np.float32) for block in blocks

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The work that a frame of an ocean takes, counted from its settings without doing it."""
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,7 +58,8 @@ def work_of(
     if wave_limit is not None:
         counts = np.minimum(counts, wave_limit)
     if visible is not None:
-        counts = np.where(np.asarray(visible), counts, 0)
+        moving = np.asarray(visible)  # still water is written once
+        plane, vertices, counts = tuple(itertools.compress(plane, moving)), vertices[moving], counts[moving]
     base = 4 if ocean.framing.curved_earth else 2
     columns = sum(block.columns for block in blocks)
     inner = 2 * counts + base
@@ -68,10 +70,10 @@ def work_of(
         floats=float(columns * vertices.sum()),
         products=float(len(blocks) * _run_count(plane, counts)),
         factor_terms=float(_factor_terms(ocean.grid, waves.wavelength)),
-        vertices=float(vertices.sum()),
-        normals=float(vertices.sum()) if TANGENTS in blocks else 0.0,
+        vertices=float(ocean.grid.vertex_count),
+        normals=float(ocean.grid.vertex_count) if TANGENTS in blocks else 0.0,
         vectors=float(len(blocks)),
-        **ripple_work(_moving_images(ocean)),
+        **ripple_work(_images(ocean)),
     )
 
 
@@ -122,8 +124,8 @@ def ripple_work(images) -> dict[str, float]:
     return {"texels": sum(texels), "far_texels": float(sum(far)), "images": float(len(images))}
 
 
-def _moving_images(ocean):
-    """The ripple images that every frame writes: none for a still one."""
-    if ocean.ripples.kind != "spectral":
+def _images(ocean):
+    """The ripple images that every frame writes; a still one as well, as Blender saves no pixels with a file."""
+    if ocean.ripples.kind == "off":
         return ()
     return bump_layout(ocean.ripples, ocean.grid.shortest_wavelength).tiles

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All accuracy knobs, and which of a knob's steps are worth having."""
 
-from . import geometry, misprints, ripples, shading, waves
+from . import geometry, in_blender, misprints, ripples, shading, waves
 from .knob import Knob
 
 KNOBS: tuple[Knob, ...] = (
@@ -17,6 +17,8 @@ KNOBS: tuple[Knob, ...] = (
     shading.SLOPES,
     shading.SLOPE_VARIANCE,
     shading.ANISOTROPY,
+    in_blender.NORMALS,
+    in_blender.REFLECTION,
     misprints.EQUATIONS,
 )
 

@@ -79,7 +79,8 @@ def _shown(settings):
     return shown
 
 
-def _error(settings):
+def ripple_error(settings: Ripples) -> float:
+    """Share of the slope variance of ripples that these settings show wrongly or not at all, %."""
     if settings.kind == "off":
         return 100.0
     return 100.0 * wrong_share(_shown(settings), _wanted())
@@ -99,13 +100,14 @@ def _images(settings):
 
 
 def _steps():
-    yield Step("none", lambda: _error(_settings("off")), None)
-    yield Step("random, still", lambda: _error(_settings("random")), None)
+    yield Step("none", lambda: ripple_error(_settings("off")), None)
+    random = _settings("random")
+    yield Step("random, still", functools.partial(ripple_error, random), functools.partial(_images, random))
     for option in parameters_of(Ripples)["resolution"].options:
         settings = _settings("spectral", option.key)
         yield Step(
             f"spectral, {option.key}",
-            functools.partial(_error, settings),
+            functools.partial(ripple_error, settings),
             functools.partial(_images, settings),
         )
 

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Budgets tried out: what is chosen for a time, and the time that its frames then take."""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...core.cost.budget import Choice, choose
+from ...core.cost.model import CostModel
+from ...core.cost.quality import apply, ladder
+from ...core.lod import Grid
+from ...core.ripple_settings import Ripples
+from ...core.sea import Sea
+from ..bench import in_blender
+from ..bench.timing import FRAMES_PER_SECOND
+from . import frames
+
+BUDGETS = (5e-3, 20e-3, 100e-3)
+"""s"""
+
+FRAMES = 50
+LIMIT = 0.10
+"""The median may exceed the budget by this share."""
+
+SIZED = frames.settings_of(Sea(), Grid(), Ripples())
+"""The ocean of the Add menu: what budgets and qualities are shown on."""
+
+
+@dataclass(frozen=True)
+class BudgetResult:
+    """A budget, the choice that it led to and the median time of its frames, s."""
+
+    choice: Choice
+    measured: float
+
+    @property
+    def over(self) -> float:
+        """Measured time over the budget, less 1."""
+        return self.measured / self.choice.budget - 1.0
+
+    def as_mapping(self) -> dict:
+        """For the saved file."""
+        return {
+            "budget_ms": 1e3 * self.choice.budget,
+            "choice": self.choice.explain(),
+            "predicted_ms": 1e3 * self.choice.seconds,
+            "median_ms": 1e3 * self.measured,
+            "over": self.over,
+        }
+
+
+def choose_for(model: CostModel, budget: float) -> Choice:
+    """What `budget` s buys for the ocean of the Add menu."""
+    rungs = ladder(SIZED.grid)
+    return choose(rungs, lambda rung: model.predict(frames.work(apply(rung.quality, SIZED))), budget)
+
+
+def try_budget(model: CostModel, budget: float, with_blender: bool) -> BudgetResult:
+    """Choose for a budget and time the frames."""
+    choice = choose_for(model, budget)
+    settings = apply(choice.rung.quality, SIZED)
+    if not with_blender:
+        return BudgetResult(choice, _median(frames.NumpyFrame(settings, None).contestant("frame")))
+    with in_blender.fresh_data():
+        return BudgetResult(choice, _median(frames.BlenderOcean.of(settings).contestant("frame")))
+
+
+def _median(contestant):
+    taken = []
+    for frame in range(FRAMES + 1):
+        start = time.perf_counter()
+        for part in contestant.parts.values():
+            part(frame / FRAMES_PER_SECOND)
+        taken.append(time.perf_counter() - start)
+    return float(np.median(taken[1:]))  # the first frame writes what is static
