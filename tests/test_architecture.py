@@ -33,6 +33,7 @@ NEEDS_BLENDER = {"nodes", "scene", "ui"} | BLENDER_MODULES
 # Modules that one file may import where they are installed: it says what is missing where they are not.
 OPTIONAL = {
     "ocean_lod_addon/cli/sea_plot.py": {"matplotlib"},
+    "ocean_lod_addon/cli/slopes_plot.py": {"matplotlib"},
     "ocean_lod_addon/cli/bench/plot.py": {"matplotlib"},
     "ocean_lod_addon/cli/cost/plot.py": {"matplotlib"},
 }

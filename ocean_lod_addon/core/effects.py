@@ -35,6 +35,7 @@ class Effects:
         "Velocity", "Velocity of the water at each vertex, for motion blur in Cycles, exports and simulations"
     )
     ripples: str = _effect("Ripples", "Short waves as a bump of the surface")
+    gusts: str = _effect("Gusts", "Patches of stronger and weaker ripples that drift with the wind")
     skewed_slopes: str = _effect("Skewed Slopes", "Steeper ripples towards the wind in the sun's reflection")
     curved_earth: str = _effect("Curved Earth", "The sea sinks away with distance, as the Earth does")
     see_through: str = _effect("See Through", "Light refracted into the water, absorbed and scattered there")

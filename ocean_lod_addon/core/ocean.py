@@ -11,13 +11,14 @@ from .camera_view import CameraView
 from .column_blocks import ColumnBlock
 from .discretise import check_wave_height, discretise
 from .framing import Framing
+from .gusts import gust_factor, gust_waves
 from .kernel import FrameKernel, ReusedArray
 from .lod import Grid, undisturbed_positions
 from .placement import Placement, place
 from .ripple_settings import Ripples
 from .ripples.bump import Bump
 from .sea import Sea
-from .slope_budget import unresolved_slope_variance
+from .slope_budget import total_slope_variance, unresolved_slope_variance, wave_tensors
 from .waves import WaveSet
 
 
@@ -74,6 +75,29 @@ class Surface:
     def slope_variance(self) -> np.ndarray:
         """Unresolved slope variance (xx, yy, xy) of each vertex, (vertex_count, 3) float32; static in time."""
         return unresolved_slope_variance(self.ocean.sea, self.ocean.grid, self.waves)
+
+    @property
+    def has_gusts(self) -> bool:
+        """Whether the slope variance changes with time."""
+        return self._gusts is not None
+
+    @functools.cached_property
+    def _gusts(self):
+        ripples = self.ocean.ripples
+        return gust_waves(self.ocean.sea, ripples.gust_size) if ripples.gusts else None
+
+    @functools.cached_property
+    def _steady(self):
+        """The slope variance without gusts, and the part of it (3,) that the mesh shows nowhere: theirs."""
+        whole = total_slope_variance(self.ocean.sea, self.waves)
+        return self.slope_variance(), np.float32(whole - wave_tensors(self.waves).sum(axis=0))
+
+    def gusty(self, anchors: np.ndarray, time: float) -> tuple[np.ndarray, np.ndarray]:
+        """Unresolved slope variance (vertices, 3) at `time` in s with gusts, and the root of their factor
+        (vertices,), which the slopes of ripples are multiplied by; both float32. Only with `has_gusts`."""
+        steady, theirs = self._steady
+        factor = gust_factor(self.ocean.grid, self._gusts, self.ocean.ripples, anchors, time)
+        return steady + (factor - 1.0)[:, None] * theirs, np.sqrt(factor)
 
     @functools.cached_property
     def bump(self) -> Bump | None:

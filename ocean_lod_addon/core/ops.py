@@ -39,9 +39,6 @@ class Ops(Protocol):
     def dot(self, a, b) -> Any:
         """The scalar a . b of two vectors."""
 
-    def vector_multiply_add(self, a, factor, b) -> Any:
-        """a factor + b, of vectors a and b and a scalar factor, one vector math node."""
-
 
 class NumpyOps:
     """`Ops` on NumPy arrays, in the precision of `dtype`."""
@@ -87,6 +84,3 @@ class NumpyOps:
 
     def dot(self, a, b):
         return (a * b).sum(axis=0)
-
-    def vector_multiply_add(self, a, factor, b):
-        return a * factor + b

@@ -145,6 +145,7 @@ def decide(facts: Facts, settings: Settings, waves: WaveSet) -> Plan:
         "analytic_normals": _analytic_normals(facts, settings, waves),
         "velocity": _velocity(facts, waves),
         "ripples": _ripples(facts, settings),
+        "gusts": _gusts(facts, settings),
         "skewed_slopes": _skewed_slopes(facts, settings),
         "curved_earth": _curved_earth(facts, settings),
         "see_through": _see_through(facts, settings),
@@ -171,7 +172,11 @@ def effective(settings: Settings, plan: Plan) -> Settings:
         material=replace(
             settings.material, skewed_slopes=plan.on("skewed_slopes"), see_through=plan.on("see_through")
         ),
-        ripples=settings.ripples if plan.on("ripples") else replace(settings.ripples, kind="off"),
+        ripples=replace(
+            settings.ripples,
+            kind=settings.ripples.kind if plan.on("ripples") else "off",
+            gusts=plan.on("gusts"),
+        ),
     )
 
 
@@ -288,6 +293,19 @@ def _ripples(facts, settings):
         pixels >= _NYQUIST_PIXELS,
         f"The longest ripple, {longest:g} m, is {_in_pixels(pixels)} long on the nearest water",
     )
+
+
+def _gusts(facts, settings):
+    if _wind(settings.sea) == 0.0:
+        return Auto(False, "There is no wind to blow in gusts", possible=False)
+    if not settings.ripples.gusts:
+        return Auto(False, "The ripples' Gusts are not asked for")
+    nothing = _no_shading(facts)
+    if nothing:
+        return Auto(False, nothing)
+    strength = settings.ripples.gust_strength
+    steps = BRIGHTNESS_STEPS * strength  # the glitter is as bright as one over the slope variance
+    return Auto(steps >= 1.0, f"Changes the glitter by {steps:.0f} of 255 steps (rms)")
 
 
 def _wind(sea):

@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 
 from .errors import OceanError
-from .parameters import Option, choice, number, validate
+from .parameters import Option, choice, number, switch, validate
 
 
 @dataclass(frozen=True)
@@ -61,6 +61,20 @@ class Ripples:
         1000.0,
         "m",
         soft_maximum=100.0,
+    )
+
+    gusts: bool = switch(
+        "Gusts", "Patches of stronger and weaker ripples that drift with the wind, such as cat's paws", False
+    )
+    gust_strength: float = number(
+        "Strength",
+        "How far gusts and lulls differ: standard deviation of the logarithm of the ripples' slope variance",
+        0.6,
+        0.0,
+        2.0,
+    )
+    gust_size: float = number(
+        "Size", "Length of a patch along the wind", 150.0, 1.0, 1e5, "m", soft_maximum=1000.0
     )
 
     def __post_init__(self):

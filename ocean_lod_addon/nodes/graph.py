@@ -10,6 +10,10 @@ the equation it implements, and each operation becomes one node:
 - `section` puts the nodes made inside it into a named frame, with group inputs of its own;
 - everything gets a name that depends on the order of building alone: two builds give the same tree.
 
+Cycles runs nodes in the order they are made in, and has room for 255 numbers that wait for their last use. It
+converts between numbers, vectors and colours only after all nodes that need no conversion, which keeps what they
+made waiting: take a colour apart by its `components`, and let * alone combine a number with a vector.
+
 `GraphOps` is `core.ops.Ops` on a graph, for the formulas that NumPy evaluates as well;
 `groups.ensure_group` decides when a tree is built.
 """
@@ -311,17 +315,13 @@ class Graph:
             self.connect(scale, node.inputs["Scale"])
         return self.output_of(node, "Value" if operation in ("DOT_PRODUCT", "LENGTH") else "Vector")
 
-    def vector_multiply_add(self, a, b, c) -> Vector:
-        """a b + c component by component, in one node; a scalar stands for three equal components."""
-        key = ("vector", "MULTIPLY_ADD", _key(a), _key(b), _key(c))
-        return self._once(key, lambda: self._emit_vector_math("MULTIPLY_ADD", (a, b, c), None))
-
     def components(self, vector) -> tuple[Scalar, Scalar, Scalar]:
-        """x, y and z of a vector."""
+        """x, y and z of a vector, or red, green and blue of a colour."""
         return self._once(("components", vector.key), lambda: self._emit_components(vector))
 
     def _emit_components(self, vector):
-        node = self.node("ShaderNodeSeparateXYZ", inputs={0: vector})
+        node_type = "ShaderNodeSeparateColor" if isinstance(vector, Color) else "ShaderNodeSeparateXYZ"
+        node = self.node(node_type, inputs={0: vector})
         return tuple(self.output_of(node, index) for index in range(3))
 
     def vector(self, x, y, z) -> Vector:
@@ -422,6 +422,3 @@ class GraphOps:
 
     def dot(self, a, b):
         return a.dot(b)
-
-    def vector_multiply_add(self, a, factor, b):
-        return self._graph.vector_multiply_add(a, factor, b)

@@ -19,31 +19,37 @@ def _number(name: str, description: str, default=0.0, maximum=1e5) -> Socket:
     return Socket(name, "FLOAT", description, default, 0.0, maximum)
 
 
-TOWARDS_VIEWER = _vector("Towards Viewer", "Horizontal unit vector u towards the viewer, in the object's axes")
-LEFT_OF_VIEWER = _vector("Left of Viewer", "Horizontal unit vector v to the left of u, in the object's axes")
+def _sum(name: str, description: str) -> Socket:
+    return Socket(name, "FLOAT", f"Sum over bands: {description}", 0.0, -1e5, 1e5)
+
+
+TOWARDS_VIEWER = _vector(
+    "Towards Viewer", "Horizontal unit vector u towards the viewer, in the object's axes; v is to the left of it"
+)
 EDGE_ON = _number("Edge-On Slope", "Slope along u at which a facet is seen edge-on")
 FOOTPRINT_U = _number("Footprint Along View", "Variance of what a pixel covers along u, m²")
 FOOTPRINT_V = _number("Footprint Across View", "Variance of what a pixel covers along v, m²")
 MESH_NORMAL = _vector("Mesh Normal", "Normal of the mesh in the object's axes")
 
 REST_POSITION = _vector("Rest Position", "Undisturbed x, y in m")
-TILE_SIZE = _number("Tile Size", "Side of the square of water that the image shows, m", 1.0)
+TILES_PER_METRE = _number("Tiles per Metre", "One over the side of the square of water that the image shows", 1.0)
 SHIFT = Socket("Shift", "VECTOR", "Shift of the grid in cells; z is the number of the grid and a half")
 PLACE = _vector("Place", "Where to look at the image")
 WEIGHT = _number("Weight", "How much the look counts, before weights are normalised", 0.0, 1.0)
 
 WAVENUMBER_2 = _number("Squared Wavenumber", "Of the middle of the band, rad²/m²", 1.0, 9e5)
 AMPLITUDE = _number("Amplitude", "Root of the share of the band's slope variance that the mesh leaves", 1.0, 2.0)
-SLOPES = _vector("Slopes", "Slopes of the band as (x, y, of no meaning)")
+SLOPE_X = Socket("Slope x", "FLOAT", "Slope of the band along x", 0.0, -1e3, 1e3)
+SLOPE_Y = Socket("Slope y", "FLOAT", "Slope of the band along y", 0.0, -1e3, 1e3)
 VARIANCE = _vector("Variance", "Slope variance of the band as (xx, yy, xy)")
 SUMS = (
-    _vector("Slopes u", "Sum over bands of slopes, faded as slopes along u"),
-    _vector("Slopes v", "Sum over bands of slopes, faded as slopes along v"),
-    _vector("Variance uu", "Sum over bands of slope variances, faded as the variance along u"),
-    _vector("Variance vv", "Sum over bands of slope variances, faded as the variance along v"),
-    _vector("Variance uv", "Sum over bands of slope variances, faded as the covariance"),
+    _sum("Slope u", "slopes shown along u"),
+    _sum("Slope v", "slopes shown along v"),
+    _sum("Variance uu", "variance of the slopes shown along u"),
+    _sum("Variance vv", "variance of the slopes shown along v"),
+    _sum("Covariance uv", "covariance of the slopes shown along u and v"),
 )
-"""A `shading.Bump` as sockets."""
+"""A `shading.Shown` as sockets."""
 
 
 def _turn(graph, vector, vector_type, convert_from, convert_to):
@@ -71,17 +77,18 @@ def _build_view(graph: Graph):
         angle, size, _ = graph.output_of(pixel, "Vector").components()
         width = graph.label(ops.multiply_add(distance, angle, size), "width of a pixel")
     with graph.section("View"):
-        u, v = shading.view_axes(ops, to_viewer.components())
+        c, s = shading.view_axes(ops, to_viewer.components())
         sight = shading.sight_of(ops, to_viewer.components(), normal.components(), width)
-    for socket, value in zip(VIEW.outputs, (u, v, *sight, normal), strict=True):
+    values = (graph.vector(c, s, 0.0), *sight, normal)
+    for socket, value in zip(VIEW.outputs, values, strict=True):
         graph.output(socket.name, value)
 
 
 VIEW = GroupRecipe(
     "Ocean LOD Ripple View",
-    "1",
+    "2",
     inputs=(),
-    outputs=(TOWARDS_VIEWER, LEFT_OF_VIEWER, EDGE_ON, FOOTPRINT_U, FOOTPRINT_V, MESH_NORMAL),
+    outputs=(TOWARDS_VIEWER, EDGE_ON, FOOTPRINT_U, FOOTPRINT_V, MESH_NORMAL),
     build=_build_view,
 )
 """How a point is seen."""
@@ -90,26 +97,25 @@ VIEW = GroupRecipe(
 def _build_look(graph: Graph):
     """The cell of the grid that the point is in, that cell's own place in the image, and the point's weight."""
     with graph.section("Cell"):
-        scale = graph.label(1.0 / graph.input(TILE_SIZE.name), "tiles per metre")
-        rest = graph.input(REST_POSITION.name)
-        place = graph.vector_multiply_add(rest, scale, graph.input(SHIFT.name))
+        place = graph.input(REST_POSITION.name) * graph.input(TILES_PER_METRE.name) + graph.input(SHIFT.name)
         noise = graph.node(
             "ShaderNodeTexWhiteNoise",
             "the cell's own place",
             {"Vector": graph.vector_math("FLOOR", place)},
             noise_dimensions="3D",
         )
-    with graph.section("Distance from the border"):
         x, y, _ = graph.vector_math("FRACTION", place).components()
-        weight = shading.blend_weight(x, y)
-    graph.output(PLACE.name, place + graph.output_of(noise, "Color"))
-    graph.output(WEIGHT.name, weight)
+    with graph.section("Distance from the border"):
+        graph.output(WEIGHT.name, shading.blend_weight(x, y))
+    with graph.section("Place in the image"):
+        own_x, own_y, _ = graph.output_of(noise, "Color").components()
+        graph.output(PLACE.name, graph.vector(x + own_x, y + own_y, 0.0))
 
 
 LOOK = GroupRecipe(
     "Ocean LOD Ripple Look",
-    "1",
-    inputs=(REST_POSITION, TILE_SIZE, SHIFT),
+    "2",
+    inputs=(REST_POSITION, TILES_PER_METRE, SHIFT),
     outputs=(PLACE, WEIGHT),
     build=_build_look,
 )
@@ -123,18 +129,31 @@ def _build_band(graph: Graph):
         footprints = (graph.input(socket.name) for socket in (FOOTPRINT_U, FOOTPRINT_V))
         k2, amplitude = graph.input(WAVENUMBER_2.name), graph.input(AMPLITUDE.name)
         fades = [shading.fade(ops, footprint, k2, amplitude) for footprint in footprints]
+    with graph.section("Tensors along the view"):
+        c, s, _ = graph.input(TOWARDS_VIEWER.name).components()
+        axes = shading.tensor_axes(ops, c, s)
     with graph.section("Sums"):
-        others = shading.Bump(*(graph.input(socket.name) for socket in SUMS))
-        slopes, variance = graph.input(SLOPES.name), graph.input(VARIANCE.name)
-        sums = shading.add_band(ops, others, *fades, slopes, variance)
+        others = shading.Shown(*(graph.input(socket.name) for socket in SUMS))
+        slopes = (graph.input(SLOPE_X.name), graph.input(SLOPE_Y.name))
+        sums = shading.add_band(ops, others, c, s, axes, fades, slopes, graph.input(VARIANCE.name))
     for socket, value in zip(SUMS, sums, strict=True):
         graph.output(socket.name, value)
 
 
 BAND = GroupRecipe(
     "Ocean LOD Ripple Band",
-    "1",
-    inputs=(FOOTPRINT_U, FOOTPRINT_V, WAVENUMBER_2, AMPLITUDE, SLOPES, VARIANCE, *SUMS),
+    "2",
+    inputs=(
+        TOWARDS_VIEWER,
+        FOOTPRINT_U,
+        FOOTPRINT_V,
+        WAVENUMBER_2,
+        AMPLITUDE,
+        SLOPE_X,
+        SLOPE_Y,
+        VARIANCE,
+        *SUMS,
+    ),
     outputs=SUMS,
     build=_build_band,
 )
@@ -144,29 +163,25 @@ BAND = GroupRecipe(
 def _build_surface(graph: Graph):
     """The slopes as the viewer meets them, added to those of the mesh; the variance that is left to the BRDF."""
     ops = GraphOps(graph)
-    u, v = graph.input(TOWARDS_VIEWER.name), graph.input(LEFT_OF_VIEWER.name)
     unresolved = graph.input(SLOPE_VARIANCE.name)
+    shown = shading.Shown(*(graph.input(socket.name) for socket in SUMS))
     with graph.section("Tensors along the view"):
-        c, s, _ = u.components()
+        c, s, _ = graph.input(TOWARDS_VIEWER.name).components()
         axes = shading.tensor_axes(ops, c, s)
-    with graph.section("Shown slopes"):
-        bump = shading.Bump(*(graph.input(socket.name) for socket in SUMS))
-        shown = shading.shown_along_view(ops, u, v, axes, bump)
+    with graph.section("Left to the BRDF"):
+        graph.output(SLOPE_VARIANCE.name, shading.left_to_brdf(axes, unresolved, shown))
     with graph.section("Visible slopes"):
         total = ops.dot(unresolved, axes.of_uu)
         slopes = shading.visible_slopes(ops, shown, graph.input(EDGE_ON.name), total)
     with graph.section("Bumped normal"):
-        normal = graph.input(MESH_NORMAL.name)
-        bumped = shading.bumped_normal(ops, u, v, normal, normal.components()[2], *slopes)
+        bumped = shading.bumped_normal(ops, c, s, graph.input(MESH_NORMAL.name).components(), *slopes)
         graph.output(NORMAL.name, _turn(graph, bumped, "NORMAL", "OBJECT", "WORLD"))
-    with graph.section("Left to the BRDF"):
-        graph.output(SLOPE_VARIANCE.name, shading.left_to_brdf(ops, axes, unresolved, shown))
 
 
 SURFACE = GroupRecipe(
     "Ocean LOD Ripple Surface",
-    "1",
-    inputs=(SLOPE_VARIANCE, MESH_NORMAL, TOWARDS_VIEWER, LEFT_OF_VIEWER, EDGE_ON, *SUMS),
+    "2",
+    inputs=(SLOPE_VARIANCE, MESH_NORMAL, TOWARDS_VIEWER, EDGE_ON, *SUMS),
     outputs=(SLOPE_VARIANCE, NORMAL),
     build=_build_surface,
 )

@@ -6,6 +6,13 @@ a third of a cell, and every cell looks at a place of its own in the image. Thei
 of a cell, so that no border shows, and are normalised so that the variance is the same everywhere; where one grid
 has a border, another has not. So the image never repeats.
 
+A look picks one texel, at random up to half a texel beside its place, so that the samples of a pixel see the image
+as linear interpolation would show it on average, and each of them slopes with all their variance. Interpolated
+images lose some, and EEVEE would fade them by mip maps, besides what is faded here.
+
+Ripples ride on longer ripples as they do on the waves of the mesh: an image is looked up at the places that water
+had before the ripples of the images before displaced it.
+
 Per band of waves, what `core.ripples.shading` says: the amplitude that the mesh leaves to it, faded by the size of
 a pixel. What neither mesh nor bump shows is left to the BRDF.
 """
@@ -16,7 +23,7 @@ from collections.abc import Sequence
 from ..core.ripples import shading
 from ..core.ripples.bump import BumpLayout
 from . import ripple_parts as parts
-from .graph import Graph, GraphOps, Vector
+from .graph import Graph, GraphOps
 from .groups import GroupRecipe, Socket, use_group
 from .sockets import NORMAL, SLOPE_VARIANCE
 
@@ -28,6 +35,9 @@ AMPLITUDE_ATTRIBUTE = "ocean_ripple_amplitude_"
 that it shows in part, four at a time."""
 
 BANDS_PER_ATTRIBUTE = 4
+
+GUST_ATTRIBUTE = "ocean_gust"
+"""Point attribute (FLOAT) of the mesh: what gusts multiply the slopes of ripples by; only with gusts."""
 
 WAVE_HEIGHT = Socket(
     "Wave Height", "FLOAT", "Significant wave height: random ripples are stronger on high water", 1.0, 0.0, 100.0
@@ -61,26 +71,40 @@ class _Builder:
         with graph.section("Left by the mesh"):
             rest = graph.output_of(self.attribute(REST_POSITION_ATTRIBUTE), "Vector")
             amplitudes = self.amplitudes()
-        sums = {socket.name: (0.0, 0.0, 0.0) for socket in parts.SUMS}
+        with graph.section("Random place in a texel"):
+            beside = self.beside(rest)
+        sums = {socket.name: 0.0 for socket in parts.SUMS}
         numbered = iter(enumerate(zip(layout.bands, amplitudes, strict=True)))
-        for number in range(len(layout.tiles)):
+        for number, tile in enumerate(layout.tiles):
             with graph.section(f"Image {number + 1}"):
-                slopes_of_bands = self.slopes(number, rest)
+                slopes_of_bands = self.slopes(number, rest + beside * (tile.size / tile.texels))
             with graph.section(f"Bands of image {number + 1}"):
-                for slopes in slopes_of_bands:
-                    index, (band, amplitude) = next(numbered)
+                shown = [(*next(numbered), slopes) for slopes in slopes_of_bands]
+                for index, (band, amplitude), (x, y) in shown:
                     own = {
                         parts.WAVENUMBER_2.name: band.middle_wavenumber**2,
                         parts.AMPLITUDE.name: amplitude,
-                        parts.SLOPES.name: slopes,
+                        parts.SLOPE_X.name: x,
+                        parts.SLOPE_Y.name: y,
                         parts.VARIANCE.name: graph.input(variance_socket(index).name),
                     }
                     sums = use_group(graph, parts.BAND, view | own | sums)
+            if tile != layout.tiles[-1]:
+                with graph.section(f"What rides on image {number + 1}"):
+                    for _, (band, amplitude), slopes in shown:
+                        wave = (*slopes, amplitude, band.middle_wavenumber)
+                        rest = shading.undisturbed_by(self.ops, rest, *wave)
         with graph.section("Surface"):
             unresolved = {SLOPE_VARIANCE.name: graph.input(SLOPE_VARIANCE.name)}
             surface = use_group(graph, parts.SURFACE, view | unresolved | sums)
         for name, value in surface.items():
             graph.output(name, value)
+
+    def beside(self, rest):
+        """A random vector (x, y, 0) from -1/2 to 1/2 along both axes, another one at every place."""
+        noise = self.graph.node("ShaderNodeTexWhiteNoise", inputs={"Vector": rest}, noise_dimensions="3D")
+        x, y, _ = self.graph.output_of(noise, "Color").components()
+        return self.graph.vector(x - 0.5, y - 0.5, 0.0)
 
     def attribute(self, name: str):
         return self.graph.node("ShaderNodeAttribute", name, attribute_name=name, attribute_type="GEOMETRY")
@@ -93,7 +117,10 @@ class _Builder:
             attribute = self.attribute(f"{AMPLITUDE_ATTRIBUTE}{first // BANDS_PER_ATTRIBUTE}")
             result += graph.output_of(attribute, "Color").components()
             result.append(graph.output_of(attribute, "Alpha"))
-        result = result[:count] + [1.0] * (len(self.layout.bands) - count)
+        never_resolved = 1.0
+        if self.layout.gusts:
+            never_resolved = graph.output_of(self.attribute(GUST_ATTRIBUTE), 2)  # Fac, or Factor
+        result = result[:count] + [never_resolved] * (len(self.layout.bands) - count)
         if self.layout.kind == "random":
             factor = self.on_high_water()
             result = [amplitude * factor for amplitude in result]
@@ -106,29 +133,25 @@ class _Builder:
         height = ops.maximum(graph.input(WAVE_HEIGHT.name), _LEAST_WAVE_HEIGHT)
         return graph.label(ops.sqrt(ops.maximum(z / height + 1.0, 0.0)), "stronger on high water")
 
-    def slopes(self, number: int, rest) -> list[Vector]:
-        """Slopes of each band of image `number`, as vectors (x, y, of no meaning)."""
-        graph, ops = self.graph, self.ops
-        looks = [self.look(number, grid, rest) for grid in range(GRIDS)]
-        weights = [weight for _, weight in looks]
-        color = graph.output_of(looks[0][0], "Color") * weights[0]
-        for image, weight in looks[1:]:
-            color = ops.vector_multiply_add(graph.output_of(image, "Color"), weight, color)
-        normaliser = graph.label(shading.blend_normaliser(ops, weights), "1 / weights")
-        color = graph.label(color * normaliser, "slopes")
-        if len(self.layout.tiles[number].bands) == 1:
-            return [color]
-        alpha = graph.output_of(looks[0][0], "Alpha") * weights[0]
-        for image, weight in looks[1:]:
-            alpha = ops.multiply_add(graph.output_of(image, "Alpha"), weight, alpha)
-        return [color, graph.vector(color.components()[2], alpha * normaliser, 0.0)]
+    def slopes(self, number: int, place) -> list[tuple]:
+        """Slopes (x, y) of each band of image `number` at a place."""
+        ops, bands = self.ops, len(self.layout.tiles[number].bands)
+        channels, weights = [0.0] * (2 * bands), []
+        for grid in range(GRIDS):
+            own_channels, weight = self.look(number, grid, place)
+            weights.append(weight)
+            pairs = zip(own_channels, channels, strict=False)
+            channels = [ops.multiply_add(own, weight, others) for own, others in pairs]
+        normaliser = self.graph.label(shading.blend_normaliser(ops, weights), "1 / weights")
+        channels = [channel * normaliser for channel in channels]
+        return [(channels[2 * band], channels[2 * band + 1]) for band in range(bands)]
 
-    def look(self, number: int, grid: int, rest):
-        """The image node of image `number` as grid number `grid` sees it, and the weight of what it sees."""
+    def look(self, number: int, grid: int, place):
+        """The channels of image `number` as grid number `grid` sees it, and the weight of what it sees."""
         graph = self.graph
         inputs = {
-            parts.REST_POSITION.name: rest,
-            parts.TILE_SIZE.name: self.layout.tiles[number].size,
+            parts.REST_POSITION.name: place,
+            parts.TILES_PER_METRE.name: 1.0 / self.layout.tiles[number].size,
             parts.SHIFT.name: (grid / GRIDS, grid / GRIDS, GRIDS * number + grid + 0.5),
         }
         look = use_group(graph, parts.LOOK, inputs)
@@ -137,10 +160,11 @@ class _Builder:
             f"Slopes {number + 1}",
             {"Vector": look[parts.PLACE.name]},
             image=self.images[number],
-            interpolation="Linear",
+            interpolation="Closest",
             extension="REPEAT",
         )
-        return image, look[parts.WEIGHT.name]
+        channels = (*graph.output_of(image, "Color").components(), graph.output_of(image, "Alpha"))
+        return channels, look[parts.WEIGHT.name]
 
 
 def ripples_recipe(name: str, layout: BumpLayout, images: Sequence) -> GroupRecipe:
@@ -150,7 +174,7 @@ def ripples_recipe(name: str, layout: BumpLayout, images: Sequence) -> GroupReci
     description = repr((layout, [image.name for image in images]))
     return GroupRecipe(
         name,
-        "1 " + hashlib.blake2b(description.encode(), digest_size=8).hexdigest(),
+        "2 " + hashlib.blake2b(description.encode(), digest_size=8).hexdigest(),
         inputs=(SLOPE_VARIANCE, *variances, *extra),
         outputs=(SLOPE_VARIANCE, NORMAL),
         build=lambda graph: _Builder(graph, layout, images).build(),

@@ -14,6 +14,9 @@ REST_POSITION = "ocean_rest_position"
 RIPPLE_AMPLITUDE = "ocean_ripple_amplitude_"
 """Point attributes, FLOAT_COLOR, numbered from 0: what the mesh leaves of each band to the ripples, by fours."""
 
+GUST = "ocean_gust"
+"""Point attribute, FLOAT: what gusts multiply the slopes of ripples by; only with gusts."""
+
 _REST_ANCHORS = "ocean_lod_rest_anchors"
 _FINGERPRINT = "ocean_lod_fingerprint"
 
@@ -89,6 +92,21 @@ def remove_ripple_attributes(mesh, keep=()) -> None:
     for name in [attribute.name for attribute in mesh.attributes]:
         if name not in keep and (name == REST_POSITION or name.startswith(RIPPLE_AMPLITUDE)):
             mesh.attributes.remove(mesh.attributes[name])
+
+
+def ensure_gust_attribute(mesh, wanted: bool) -> None:
+    """Give the mesh the attribute of gusts or take it away, with what they left of the slope variance."""
+    if wanted and GUST not in mesh.attributes:
+        mesh.attributes.new(GUST, "FLOAT", "POINT")
+    elif not wanted and GUST in mesh.attributes:
+        mesh.attributes.remove(mesh.attributes[GUST])
+        mesh.pop(_FINGERPRINT, None)
+
+
+def write_gusts(mesh, variance: np.ndarray, factor: np.ndarray) -> None:
+    """Set the slope variance (vertices, 3) and the factor of ripples' slopes (vertices,) of one moment."""
+    write_slope_variance(mesh, variance)
+    mesh.attributes[GUST].data.foreach_set("value", factor)
 
 
 def write_ripple_amplitudes(mesh, amplitudes: np.ndarray) -> None:

@@ -220,6 +220,7 @@ def _rebuild_and_move(ob, scene):
 def _ensure_attributes(mesh, planned):
     """Attributes come and go here, with the plan."""
     bump.ensure_attributes(mesh, planned.ocean)
+    mesh_arrays.ensure_gust_attribute(mesh, planned.ocean.ripples.gusts)
     mesh_arrays.ensure_vector_attributes(mesh, planned.plan.attributes, EFFECT_ATTRIBUTES)
 
 
@@ -256,6 +257,8 @@ def _write_surface(ob, surface, placement, time, with_velocity=True, stages=None
         mesh_arrays.set_static_fingerprint(mesh, ocean.fingerprint)
         stages.done("setup")
     attributes = mesh.attributes
+    if surface.has_gusts and mesh_arrays.GUST in attributes:
+        mesh_arrays.write_gusts(mesh, *surface.gusty(placement.anchors, time))
     with _evaluation:
         positions, more = _buffer(surface.vertex_count, 3), {}
         if NORMAL_ATTRIBUTE in attributes:

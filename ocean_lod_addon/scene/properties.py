@@ -196,13 +196,9 @@ def read_ocean(properties, frames_per_second: float) -> Ocean:
     )
 
 
-RIPPLES_SINCE = (5, 0, 0)
-"""Cycles in Blender 4.5 has no room for the ripples' shader ("out of SVM stack space") and would draw it black."""
-
-
 def read_ripples(properties) -> Ripples:
-    """The ripple settings; off in a Blender whose Cycles can not show them, where they are roughness instead."""
-    return rna.read(Ripples, properties.ripples) if bpy.app.version >= RIPPLES_SINCE else Ripples(kind="off")
+    """The ripple settings."""
+    return rna.read(Ripples, properties.ripples)
 
 
 def read_effects(properties) -> Effects:

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..scene import ocean_object, properties
+from ..scene import ocean_object
 from .layouts import draw_settings
 
 
@@ -25,15 +25,14 @@ class OCEAN_LOD_PT_ripples(bpy.types.Panel):
         layout = self.layout
         layout.use_property_split = True
         ripples = context.object.ocean_lod.ripples
-        if bpy.app.version < properties.RIPPLES_SINCE:
-            layout.label(text="Ripples need Blender 5: here they are roughness", icon="INFO")
-            return
         draw_settings(layout, ripples, ("kind",))
-        if ripples.kind == "off":
-            return
-        draw_settings(layout, ripples, ("resolution",))
+        if ripples.kind != "off":
+            draw_settings(layout, ripples, ("resolution",))
         if ripples.kind == "spectral":
             draw_settings(layout, ripples, ("shortest_wavelength", "longest_wavelength"))
+        draw_settings(layout, ripples, ("gusts",))
+        if ripples.gusts:
+            draw_settings(layout, ripples, ("gust_strength", "gust_size"))
 
 
 CLASSES = (OCEAN_LOD_PT_ripples,)

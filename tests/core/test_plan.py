@@ -127,6 +127,14 @@ def test_on_is_on_even_where_it_does_not_show():
     assert plan.blocks == (POSITION, TANGENTS, VELOCITY)
 
 
+def test_gusts_blow_where_they_are_asked_for_and_there_is_wind():
+    asked = dataclasses.replace(SETTINGS, ripples=Ripples(gusts=True))
+    assert not plan_of().on("gusts")
+    assert plan_of(asked).on("gusts")
+    calm = dataclasses.replace(asked, sea=Sea(systems=(WaveSystem(wind_speed=0.0),)))
+    assert not plan_of(calm).on("gusts")
+
+
 def test_what_can_not_be_is_not_turned_on():
     """No skew in Cycles' closure, no ripples of kind off."""
     off = dataclasses.replace(
@@ -152,6 +160,7 @@ def test_every_pair_of_choices_gives_a_plan_whose_parts_agree():
         assert used.material.see_through == plan.on("see_through")
         assert used.material.skewed_slopes == plan.on("skewed_slopes")
         assert (used.ripples.kind != "off") == plan.on("ripples")
+        assert used.ripples.gusts == plan.on("gusts")
 
 
 def test_the_plan_depends_on_its_arguments_alone():

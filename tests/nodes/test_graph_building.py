@@ -63,7 +63,7 @@ def test_vectors_compute_what_numpy_computes():
     def build(graph):
         ops, x, y = GraphOps(graph), graph.input("X"), graph.input("Y")
         a, b = ops.vector(x, y, 2.0), graph.vector(y, 1.0, x)
-        c = ops.vector_multiply_add(a, x, b) + ops.vector_multiply_add(a, y, b) - a.cross(b).normalized()
+        c = a * x + b + (a * y + b) - a.cross(b).normalized()
         graph.output("Result", ops.dot(c, a.times(b) * y) + (a / 2.0).length())
 
     tree = ensure_group(recipe(build))

@@ -28,11 +28,13 @@ class BumpLayout:
     tiles        the images, from long waves to short
     handed_over  number of bands, from the longest on, that the mesh shows in part
     kind         "spectral" or "random"
+    gusts        whether gusts strengthen and weaken the bands that the mesh never shows
     """
 
     tiles: tuple[Tile, ...]
     handed_over: int
     kind: str
+    gusts: bool = False
 
     @property
     def bands(self) -> tuple[Band, ...]:
@@ -78,7 +80,7 @@ def bump_layout(settings: Ripples, shortest_resolved: float) -> BumpLayout:
     make_tiles = random_tiles if settings.kind == "random" else ripple_tiles
     tiles = make_tiles(settings, shortest_resolved)
     bands = [band for tile in tiles for band in tile.bands]
-    return BumpLayout(tiles, handed_over_count(bands, shortest_resolved), settings.kind)
+    return BumpLayout(tiles, handed_over_count(bands, shortest_resolved), settings.kind, settings.gusts)
 
 
 def random_density(spectrum: RippleSpectrum, shortest: float, bands: tuple[Band, ...]):

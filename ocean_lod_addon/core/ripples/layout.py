@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from ..ripple_settings import Ripples
 
 TEXELS_PER_WAVE = 8
-"""Texels along the shortest wave of an image: looked up with linear interpolation, it keeps 90 % of its slope
-variance, which the synthesis makes up for."""
+"""Texels along the shortest wave of an image: a texel is seen at random up to half a texel beside its place."""
 
 WAVES_PER_TILE = 8
 """The longest waves of an image fit at least this often into it, so that it holds waves of many directions."""

@@ -51,19 +51,8 @@ class TensorAxes(NamedTuple):
     uv: Any
 
 
-class Bump(NamedTuple):
-    """Sums over bands: vectors whose x, y are slopes faded as slopes along u, and as slopes along v; and slope
-    variances (xx, yy, xy) faded as the variance along u, along v, and the covariance."""
-
-    slopes_u: Any
-    slopes_v: Any
-    variance_uu: Any
-    variance_vv: Any
-    variance_uv: Any
-
-
 class Shown(NamedTuple):
-    """Slopes of the bump along u and v, and their variances and covariance."""
+    """Slopes of the bump along u and v, and their variances and covariance: of all bands, or of the first few."""
 
     u: Any
     v: Any
@@ -73,11 +62,10 @@ class Shown(NamedTuple):
 
 
 def view_axes(ops, to_viewer):
-    """The unit vectors u and v for a unit vector to the viewer, (x, y, z)."""
+    """u as (c, s), so that v is (-s, c), for a unit vector to the viewer, (x, y, z)."""
     v_x, v_y, _ = to_viewer
     horizontal = _horizontal(ops, to_viewer)
-    c, s = (v_x + HORIZONTAL_FLOOR) / horizontal, v_y / horizontal
-    return ops.vector(c, s, 0.0), ops.vector(-1.0 * s, c, 0.0)
+    return ops.label((v_x + HORIZONTAL_FLOOR) / horizontal, "u, x"), ops.label(v_y / horizontal, "u, y")
 
 
 def _horizontal(ops, to_viewer):
@@ -125,36 +113,41 @@ def blend_normaliser(ops, weights):
     return 1.0 / ops.sqrt(ops.multiply_add(first, first, ops.multiply_add(second, second, third * third)))
 
 
+def undisturbed_by(ops, place, x, y, amplitude, wavenumber):
+    """Where the water at `place`, a vector, was before waves of slopes (x, y) displaced it.
+
+    A trochoid A cos psi displaces water by -A k/|k| sin psi, which is its slope -A k sin psi over |k|.
+    """
+    factor = amplitude * (-1.0 / wavenumber)
+    return place + ops.vector(x * factor, y * factor, 0.0)
+
+
 def fade(ops, footprint, squared_wavenumber, amplitude):
     """What a pixel keeps of a band's slopes: amplitude / (1 + k^2 footprint); footprint in m^2, k in rad/m."""
     return amplitude / ops.multiply_add(footprint, squared_wavenumber, 1.0)
 
 
-def add_band(ops, bump: Bump, f_u, f_v, slopes, variance) -> Bump:
-    """`bump` and one more band, of which f_u of the slopes along u and f_v of those along v are shown.
+def add_band(ops, shown: Shown, c, s, axes: TensorAxes, fades, slopes, variance) -> Shown:
+    """`shown` and one more band, of whose slopes the shares `fades`, (along u, along v), are shown.
 
-    `slopes` and `variance` (xx, yy, xy) are vectors, of the whole band; the z of slopes is of no meaning.
+    `slopes` (x, y) are numbers, `variance` (xx, yy, xy) is a vector, both of the whole band.
     """
-    terms = ((slopes, f_u), (slopes, f_v), (variance, f_u * f_u), (variance, f_v * f_v), (variance, f_u * f_v))
-    sums = zip(terms, bump, strict=True)
-    return Bump(*(ops.vector_multiply_add(vector, factor, total) for (vector, factor), total in sums))
-
-
-def shown_along_view(ops, u, v, axes: TensorAxes, bump: Bump) -> Shown:
-    """The bump in the axes u and v."""
+    f_u, f_v = fades
+    x, y = slopes
+    along, across = ops.multiply_add(x, c, y * s), y * c - x * s
     return Shown(
-        ops.dot(bump.slopes_u, u),
-        ops.dot(bump.slopes_v, v),
-        ops.label(ops.dot(bump.variance_uu, axes.of_uu), "shown variance along view"),
-        ops.dot(bump.variance_vv, axes.of_vv),
-        ops.dot(bump.variance_uv, axes.of_uv),
+        ops.multiply_add(along, f_u, shown.u),
+        ops.multiply_add(across, f_v, shown.v),
+        ops.multiply_add(ops.dot(variance, axes.of_uu), f_u * f_u, shown.uu),
+        ops.multiply_add(ops.dot(variance, axes.of_vv), f_v * f_v, shown.vv),
+        ops.multiply_add(ops.dot(variance, axes.of_uv), f_u * f_v, shown.uv),
     )
 
 
-def left_to_brdf(ops, axes: TensorAxes, unresolved, shown: Shown):
+def left_to_brdf(axes: TensorAxes, unresolved, shown: Shown):
     """Slope variance (xx, yy, xy) of what neither mesh nor bump shows: `unresolved` is what the mesh does not."""
     for tensor, component in ((axes.uu, shown.uu), (axes.vv, shown.vv), (axes.uv, shown.uv)):
-        unresolved = ops.vector_multiply_add(tensor, -1.0 * component, unresolved)
+        unresolved = unresolved - tensor * component
     return unresolved
 
 
@@ -188,8 +181,8 @@ def visible_slopes(ops, shown: Shown, edge_on, unresolved_uu):
     return seen, ops.label(ops.multiply_add(follows, seen - shown.u, shown.v), "visible slope across view")
 
 
-def bumped_normal(ops, u, v, normal, n_z, slope_u, slope_v):
-    """The mesh's normal, a vector, with slopes added to its own, not normalised: N - N_z (s_x, s_y, 0)."""
-    opposite = -1.0 * n_z
-    along = ops.vector_multiply_add(u, slope_u * opposite, normal)
-    return ops.vector_multiply_add(v, slope_v * opposite, along)
+def bumped_normal(ops, c, s, normal, slope_u, slope_v):
+    """The mesh's normal (x, y, z) with slopes added to its own, not normalised: N - N_z (s_x, s_y, 0)."""
+    n_x, n_y, n_z = normal
+    s_x, s_y = slope_u * c - slope_v * s, slope_u * s + slope_v * c
+    return ops.vector(n_x - n_z * s_x, n_y - n_z * s_y, n_z)

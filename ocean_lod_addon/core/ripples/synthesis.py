@@ -81,16 +81,6 @@ def band_waves(density, tile: Tile, band: Band, water: Water, loop_period: float
     return BandWaves(waves, column, row, tensor)
 
 
-def interpolation_gain(column, row, texels: int) -> np.ndarray:
-    """What a wave's amplitude is divided by to have its variance after linear interpolation between texels.
-
-    Along one axis interpolation keeps, on average over the positions between two texels, the share
-    (2 + cos theta) / 3 of the variance of a wave that advances by theta a texel.
-    """
-    share = [(2.0 + np.cos(TWO_PI * index / texels)) / 3.0 for index in (column, row)]
-    return np.sqrt(share[0] * share[1])
-
-
 class _BandField:
     """One band's slopes, as a complex image: real part along x, imaginary part along y."""
 
@@ -98,9 +88,8 @@ class _BandField:
         self._waves, self._texels = band.waves, texels
         step = band.waves.wavenumber / np.maximum(np.hypot(band.column, band.row), 1.0)
         k = step * (band.column + 1j * band.row)
-        gain = interpolation_gain(band.column, band.row, texels)
         # the inverse FFT divides by the number of texels
-        self._coefficient = (0.5j * k * band.waves.amplitude / gain * texels**2).astype(np.complex64)
+        self._coefficient = (0.5j * k * band.waves.amplitude * texels**2).astype(np.complex64)
         self._column, self._row = band.column % texels, band.row % texels
         self._mirrored_column, self._mirrored_row = -band.column % texels, -band.row % texels
         self._columns = np.unique(np.concatenate([self._column, self._mirrored_column]))
