@@ -9,8 +9,9 @@ import bpy
 @contextlib.contextmanager
 def fresh_data():
     """What is made in Blender within this context is removed after it."""
-    kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.materials, bpy.data.node_groups, bpy.data.images)
-    scenes = set(bpy.data.scenes)
+    data = bpy.data
+    kinds = (data.objects, data.meshes, data.cameras, data.materials, data.worlds, data.node_groups, data.images)
+    scenes = set(data.scenes)
     before = [set(kind) for kind in kinds]
     try:
         yield

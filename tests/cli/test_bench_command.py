@@ -17,12 +17,24 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.cli import bench
-from ocean_lod_addon.cli.bench import correctness, in_blender, measurements, plot, suite, workloads
+from ocean_lod_addon.cli.bench import (
+    correctness,
+    in_blender,
+    measurements,
+    plot,
+    report,
+    shading,
+    suite,
+    workloads,
+)
+from ocean_lod_addon.cli.bench.shading import GLOSSY, MATERIALS, RIPPLES, WATER, EnginePlan, ShadingResult
 from ocean_lod_addon.cli.bench.targets import MISS, NOT_MEASURED, PASS, Target
 from ocean_lod_addon.cli.bench.timing import Contestant, Ratio, Timing, measure, ratio
 from ocean_lod_addon.core.contraction import CONTRACTIONS, Product
 from ocean_lod_addon.core.gerstner import surface_points
 from ocean_lod_addon.core.lod import Grid, Topology, topology
+from ocean_lod_addon.nodes.material import NODE_NAME
+from ocean_lod_addon.nodes.ripples_material import RIPPLES_NODE_NAME
 
 REPOSITORY = Path(__file__).parents[2]
 BAD_INPUT = 2
@@ -36,6 +48,7 @@ TINY = measurements.Plan(
     view_grid=Grid(cells=32, levels=3),
     swim_grid=Grid(cells=64, levels=6),
     swim_frames=3,
+    shading=(EnginePlan("CYCLES", (16, 9), 2),),
     rounds=1,
 )
 
@@ -163,11 +176,31 @@ def test_our_object_ends_up_where_the_frame_says():
 def test_nothing_is_left_in_the_file():
     import bpy
 
-    kinds = ("objects", "meshes", "scenes", "materials", "node_groups", "images")
+    kinds = ("objects", "meshes", "scenes", "materials", "node_groups", "images", "cameras", "worlds")
     before = {kind: set(getattr(bpy.data, kind)) for kind in kinds}
     with in_blender.fresh_data():
         in_blender.menu_ocean().parts["handler"](1.0)
+        shading.build()
     assert {kind: set(getattr(bpy.data, kind)) for kind in kinds} == before
+
+
+def test_the_materials_share_a_mesh_and_keep_their_places():
+    import bpy
+
+    with in_blender.fresh_data():
+        scene, materials = shading.build()
+        (ob,) = [ob for ob in scene.objects if ob.type == "MESH"]
+        worn = []
+        for put_on in materials.values():
+            put_on(0.0)
+            bpy.ops.render.render(scene=scene.name)  # the frame's handlers must not change what is worn
+            worn.append(ob.data.materials[0])
+        kinds = [{node.bl_idname for node in material.node_tree.nodes} for material in worn]
+        assert kinds[0] == {"ShaderNodeBsdfAnisotropic", "ShaderNodeOutputMaterial"}  # Glossy
+        names = [{node.name for node in material.node_tree.nodes} for material in worn]
+        assert all(NODE_NAME in found for found in names[1:])
+        assert [RIPPLES_NODE_NAME in found for found in names] == [name == RIPPLES for name in materials]
+        assert list(materials) == list(MATERIALS)[: len(materials)]
 
 
 # ---------------------------------------------------------------------------------- times and verdicts
@@ -238,6 +271,15 @@ def test_the_share_of_the_best_rate_compares_operations_per_second():
     assert row.share_of_best_rate == Ratio(0.5, 0.5)
 
 
+def test_a_sample_costs_what_more_samples_add():
+    # 17 samples take 2.0 s, one 0.4 s: a sample is a tenth of a second, whatever comes before the first.
+    measured = timing(**{"put on": [9.0], "few": [0.4], "many": [2.0]})
+    assert shading.sample_seconds(measured, 17) == pytest.approx(0.1)
+    result = ShadingResult({"CYCLES": {GLOSSY: 1e-7, WATER: 2.5e-7}})
+    assert result.over_glossy("CYCLES", WATER) == pytest.approx(2.5)
+    assert report.shading_lines(result) == ["  CYCLES: glossy 100, water 250 (2.50 times)"]
+
+
 # ---------------------------------------------------------------------------------- the command
 
 
@@ -263,6 +305,7 @@ def test_the_saved_results_are_plain_json(tiny):
     results, _ = tiny
     saved = json.loads(json.dumps(results.as_mapping()))
     assert saved["schema_version"] == 1
+    assert saved["shading"]["CYCLES"][GLOSSY]["over_glossy"] == 1.0
     assert saved["rows"][0]["timings"]["products"]["median_ms"] > 0.0
     assert {target["verdict"] for target in saved["targets"]} <= {PASS, MISS}
     assert saved["correctness"]["swim"]["frames"] == 3

@@ -10,7 +10,8 @@ import numpy as np
 from ...core.lod import Grid
 from ...core.sea import Sea, WaveSystem
 from ..swim import SHOT_GRID
-from . import in_blender, workloads
+from . import in_blender, shading, workloads
+from .shading import EnginePlan
 from .timing import Contestant, Ratio, Timing, measure, ratio
 
 UPDATE, FRAME, EINSUM = "update", "frame in Blender", "frame in Blender, einsum"
@@ -45,6 +46,7 @@ class Plan:
     view_grid: Grid
     swim_grid: Grid
     swim_frames: int
+    shading: tuple[EnginePlan, ...]
     rounds: int
 
 
@@ -57,6 +59,7 @@ QUICK = Plan(
     view_grid=VIEW_GRID,
     swim_grid=SHOT_GRID,
     swim_frames=200,
+    shading=shading.QUICK,
     rounds=7,
 )
 FULL = Plan(
@@ -68,6 +71,7 @@ FULL = Plan(
     view_grid=VIEW_GRID,
     swim_grid=SHOT_GRID,
     swim_frames=200,
+    shading=shading.FULL,
     rounds=9,
 )
 

@@ -16,6 +16,7 @@ from .measurements import (
     Scaling,
     ViewResult,
 )
+from .shading import GLOSSY, ShadingResult
 from .targets import NOT_MEASURED, Target
 from .timing import Timing
 
@@ -115,6 +116,19 @@ def menu_ocean_line(timing: Timing) -> str:
     """The ocean that the menu adds."""
     handler, depsgraph = timing.part("handler"), timing.part(DEPSGRAPH)
     return f"  frame-change handler {_milliseconds(handler)} ms, then Blender {_milliseconds(depsgraph)} ms"
+
+
+def shading_lines(result: ShadingResult) -> list[str]:
+    """A line for each engine: what a sample costs with each material, and over a plain Glossy BSDF."""
+    if not result.seconds:
+        return ["  no engine renders here"]
+    return [f"  {engine}: {', '.join(_materials(result, engine))}" for engine in result.seconds]
+
+
+def _materials(result, engine):
+    for material, seconds in result.seconds[engine].items():
+        times = "" if material == GLOSSY else f" ({result.over_glossy(engine, material):.2f} times)"
+        yield f"{material} {_milliseconds(1e6 * seconds)}{times}"
 
 
 def memory_lines(row: Row) -> list[str]:

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 from ...core.lod import Grid
 from ...core.sea import Sea
-from . import measurements, report, targets
+from . import measurements, report, shading, targets
 from .correctness import Correctness, measure_correctness
 from .machine import Machine, disturbance, load_average, this_machine
 from .measurements import Plan, Row, Scaling, ViewResult
+from .shading import ShadingResult
 from .targets import Target
 from .timing import Timing
 
@@ -18,7 +19,7 @@ _SCHEMA_VERSION = 1
 
 @dataclass(frozen=True, eq=False)
 class Results:
-    """Everything that was measured; `menu_ocean` only with Blender."""
+    """Everything that was measured; `menu_ocean` and `shading` only with Blender."""
 
     machine: Machine
     contraction: str
@@ -28,6 +29,7 @@ class Results:
     views: list[ViewResult]
     correctness: Correctness
     menu_ocean: Timing | None
+    shading: ShadingResult | None
     targets: list[Target]
 
     def as_mapping(self) -> dict:
@@ -42,6 +44,7 @@ class Results:
             "views": [view.as_mapping() for view in self.views],
             "correctness": self.correctness.as_mapping(),
             "menu_ocean": self.menu_ocean and self.menu_ocean.as_mapping(),
+            "shading": self.shading and self.shading.as_mapping(),
             "targets": [target.as_mapping() for target in self.targets],
         }
 
@@ -73,6 +76,10 @@ def measure_and_print(plan: Plan, contraction: str, with_blender: bool) -> Resul
         title = f"The ocean of the Add menu ({Grid().vertex_count} vertices, {Sea().wave_count} waves)"
         _print_section(title, [report.menu_ocean_line(menu_ocean)])
 
+    in_renders = shading.measure_shading(plan.shading, plan.rounds) if with_blender else None
+    if in_renders is not None:
+        _print_section("Milliseconds per sample of a million pixels", report.shading_lines(in_renders))
+
     reached = [
         *targets.frame_targets(rows, contraction),
         *targets.scaling_targets(scaling),
@@ -83,7 +90,18 @@ def measure_and_print(plan: Plan, contraction: str, with_blender: bool) -> Resul
     if disturbance():
         print(f"\n{disturbance()}")
     print(f"\nmeasured in {time.perf_counter() - started:.0f} s", flush=True)
-    return Results(machine, contraction, load_average(), rows, scaling, views, correctness, menu_ocean, reached)
+    return Results(
+        machine,
+        contraction,
+        load_average(),
+        rows,
+        scaling,
+        views,
+        correctness,
+        menu_ocean,
+        in_renders,
+        reached,
+    )
 
 
 def _print_section(title, lines):
