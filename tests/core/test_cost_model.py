@@ -118,7 +118,7 @@ def test_a_probe_prices_every_stage_without_blender():
 
 def test_runs_in_turns_are_called_alike():
     calls = []
-    seconds = probe.undisturbed_seconds([lambda t: calls.append(("a", t)), lambda t: calls.append(("b", t))])
+    seconds = probe.typical_seconds([lambda t: calls.append(("a", t)), lambda t: calls.append(("b", t))])
     assert len(seconds) == 2
     assert [name for name, _ in calls[:4]] == ["a", "b", "a", "b"]
     assert len({t for name, t in calls if name == "a"}) == len(calls) // 2, "no moment is measured twice"

@@ -5,7 +5,7 @@ import csv
 import json
 import os
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...core.contraction import CONTRACTIONS, fastest_contraction
@@ -141,10 +141,15 @@ def _measured_model(with_blender):
 def _measure(options, output, with_blender):
     started = time.perf_counter()
     machine = this_machine(with_blender)
-    rounds = 9 if options.full else 3
+    rounds = 5 if options.full else 3
     print(f"{machine}; matrix products by {fastest_contraction()}", flush=True)
     model, probe_seconds = _measured_model(with_blender)
     _print(f"Prices, found in {probe_seconds:.1f} s", report.price_lines(model.prices))
+
+    whole = configurations.measure_configurations(model, rounds, with_blender)
+    tried = [budgets.try_budget(model, budget, with_blender) for budget in budgets.BUDGETS]
+    _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
+    predictions, without_blas = _try_predictions(options, model, rounds, with_blender)
 
     measured = []
     for knob in KNOBS:
@@ -154,22 +159,11 @@ def _measure(options, output, with_blender):
     _print("Equations as printed, each by itself", report.misprint_lines(misprints))
 
     rendered = pictures.compare(output.parent) if options.full and with_blender else None
-    differences = {} if rendered is None else rendered.differences
-    whole = configurations.measure_configurations(model, rounds, with_blender, differences)
+    if rendered is not None:
+        whole = [replace(each, picture=rendered.differences[each.name]) for each in whole]
     _print("Whole configurations, the ocean of the Add menu", report.configuration_lines(whole))
     if rendered is not None:
         print(report.picture_line(rendered), flush=True)
-    tried = [budgets.try_budget(model, budget, with_blender) for budget in budgets.BUDGETS]
-    _print("Budgets", report.budget_lines(tried))
-
-    predictions = without_blas = None
-    if options.full:
-        predictions = prediction.try_model(model, rounds, None, with_blender)
-        where = "through Blender" if with_blender else "without Blender"
-        _print(f"Predictions, {where}, by {fastest_contraction()}", report.prediction_lines(predictions))
-        contraction = options.contraction or "einsum"
-        without_blas = prediction.try_model(probe(contraction), rounds, contraction, False)
-        _print(f"Predictions without Blender, by {contraction}", report.prediction_lines(without_blas))
     if disturbance():
         print(f"\n{disturbance()}")
     print(f"\nmeasured in {time.perf_counter() - started:.0f} s", flush=True)
@@ -186,6 +180,19 @@ def _measure(options, output, with_blender):
         predictions,
         without_blas,
     )
+
+
+def _try_predictions(options, model, rounds, with_blender):
+    """Predictions beside times, through Blender and by a contraction in NumPy alone; (None, None) if quick."""
+    if not options.full:
+        return None, None
+    predictions = prediction.try_model(model, rounds, None, with_blender)
+    where = "through Blender" if with_blender else "without Blender"
+    _print(f"Predictions, {where}, by {fastest_contraction()}", report.prediction_lines(predictions))
+    contraction = options.contraction or "einsum"
+    without_blas = prediction.try_model(probe(contraction), rounds, contraction, False)
+    _print(f"Predictions without Blender, by {contraction}", report.prediction_lines(without_blas))
+    return predictions, without_blas
 
 
 def _print(title, lines):

@@ -62,17 +62,12 @@ def settings_of_quality(name: str):
     return apply(QUALITIES[name], SIZED)
 
 
-def measure_configurations(
-    model: CostModel, rounds: int, with_blender: bool, pictures: dict[str, PictureDifference]
-) -> list[ConfigurationResult]:
-    """All qualities; `pictures` are the differences of those whose picture was rendered."""
-    return [
-        _measure(name, quality, model, rounds, with_blender, pictures.get(name))
-        for name, quality in QUALITIES.items()
-    ]
+def measure_configurations(model: CostModel, rounds: int, with_blender: bool) -> list[ConfigurationResult]:
+    """All qualities, without their pictures."""
+    return [_measure(name, quality, model, rounds, with_blender) for name, quality in QUALITIES.items()]
 
 
-def _measure(name, quality, model, rounds, with_blender, picture):
+def _measure(name, quality, model, rounds, with_blender):
     settings = apply(quality, SIZED)
     measured = _seconds(settings, rounds, with_blender)
     return ConfigurationResult(
@@ -87,7 +82,7 @@ def _measure(name, quality, model, rounds, with_blender, picture):
         _ripples_wrong(quality),
         1e3 * model.total(frames.work(settings)),
         1e3 * measured,
-        picture,
+        None,
     )
 
 

@@ -26,8 +26,8 @@ REFERENCE, TWICE = "reference", "twice the reference"
 
 STEPS = 255.0
 
-_WIDTH, _HEIGHT = 192, 108
-_PIXEL_SAMPLES = 32
+_WIDTH, _HEIGHT = 160, 90
+_PIXEL_SAMPLES = 128
 _SHOT = Shot(camera_height=3.0, sun_elevation=np.radians(35.0), sun_azimuth=np.radians(5.0))
 _WHITE = 99.0
 """Percentile of the Reference's radiance that is shown as white: glitter may be brighter."""

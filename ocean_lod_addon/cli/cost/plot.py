@@ -11,6 +11,9 @@ from ...core.errors import OceanError
 
 _KEPT, _LEFT_OUT, _MEASURED = "#1f4e79", "#b8b8b8", "#e07b39"
 _COLUMNS = 3
+_WIDE = 8.0
+"""Times that differ by more than this factor are shown on a logarithmic scale."""
+
 _TIME_FLOOR = 1e-3  # ms; what costs nothing stands at the edge of the plot
 
 
@@ -51,7 +54,9 @@ def _draw_ladder(axes, ladder):
     axes.plot([x for x, _, _ in left_out], [y for _, y, _ in left_out], "x", color=_LEFT_OUT)
     for x, y, name in (*kept, *left_out):
         axes.annotate(name, (x, y), textcoords="offset points", xytext=(5, 4), fontsize=6.5, color="#333333")
-    axes.set_xscale("log")
+    times = [x for x, _, _ in (*kept, *left_out)]
+    if max(times) > _WIDE * min(times):
+        axes.set_xscale("log")
     positive = [step.error for step in ladder.steps if step.error > 1e-9]
     if positive and max(positive) > 30.0 * min(positive):
         axes.set_yscale("symlog", linthresh=min(positive))

@@ -48,11 +48,11 @@ _NORMALS = (1 << 13, 1 << 17)
 _NOTHING = Work(*[0.0] * len(fields(Work)))
 
 
-def undisturbed_seconds(runs) -> list[float]:
-    """Seconds that each of some functions of the time takes: the fastest of some rounds of all in turns.
+def typical_seconds(runs) -> list[float]:
+    """Seconds that each of some functions of the time takes, from some rounds of all in turns.
 
-    What else the machine does only ever adds to a time, and in turns it can not hit one of them alone. A first
-    round is not counted.
+    What else the machine does only ever adds to a time, so this is the one a third of the way from the fastest to
+    the slowest; and in turns it can not hit one of them alone. A first round is not counted.
     """
     for run in runs:
         run(0.0)
@@ -64,7 +64,7 @@ def undisturbed_seconds(runs) -> list[float]:
             start = time.perf_counter()
             run(_FRAME * number)
             times.append(time.perf_counter() - start)
-    return [min(times) for times in taken]
+    return [sorted(times)[len(times) // 3] for times in taken]
 
 
 def probe(contraction: str | None = None) -> CostModel:
@@ -90,7 +90,7 @@ def ripple_cases(show=None) -> list:
 def measured_prices(cases: dict[str, list]) -> dict[str, tuple[float, ...]]:
     """The prices of stages from cases (work, run) of each, all measured in turns."""
     everything = [(stage, work, run) for stage, pairs in cases.items() for work, run in pairs]
-    seconds = undisturbed_seconds([run for _, _, run in everything])
+    seconds = typical_seconds([run for _, _, run in everything])
     prices = {}
     for stage in cases:
         own = [(work, taken) for (name, work, _), taken in zip(everything, seconds, strict=True) if name == stage]

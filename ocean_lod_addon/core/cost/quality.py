@@ -38,7 +38,7 @@ class Quality:
 
 QUALITIES: dict[str, Quality] = {
     "draft": Quality(
-        "Draft", "To lay out a shot: waves are coarse and soon fade, ripples are roughness", 2.0, 0.5, "off"
+        "Draft", "To lay out a shot: waves are coarse and soon fade, ripples are roughness", 2.0, 0.375, "off"
     ),
     "preview": Quality("Preview", "To judge motion: ripples move", 3.0, 1.0, "256"),
     "standard": Quality("Standard", "As the plane was sized for the shot", 4.0, 1.0, "512"),
