@@ -24,7 +24,7 @@ SLOPE_VARIANCE = 0.25 * PHILLIPS_ALPHA * float(exponential_integral_e1(B / CUTOF
 """Its slope variance, (alpha / 4) E1(B / omega_c^4)."""
 
 QUADRATURE = 1000 * FLOAT64_ROUNDING
-QUADRATURE_BECAUSE = "Gauss-Legendre panels of 0.1 in ln omega converge to rounding; sums of some hundred terms"
+QUADRATURE_BECAUSE = "Gauss-Legendre panels of 0.05 in ln omega converge to rounding; sums of some hundred terms"
 
 
 def variances(waves):
