@@ -40,6 +40,8 @@ def begin_rendered_frame(scene) -> None:
 def end_rendered_frame(scene) -> None:
     """The frame is done."""
     _rendered_frames.pop(scene.name, None)
+    if not _rendered_frames:
+        _placed.clear()  # surfaces are large
 
 
 def placement_of_frame(ob, surface: Surface, scene, depsgraph) -> Placement:
@@ -51,7 +53,8 @@ def placement_of_frame(ob, surface: Surface, scene, depsgraph) -> Placement:
         return kept.placement
     view = camera_view(ob.evaluated_get(depsgraph), scene, depsgraph)
     placement = surface.placement(view, final=depsgraph.mode == "RENDER")
-    _placed[ob.session_uid] = _Placed(frame, surface, placement)
+    if scene.name in _rendered_frames:
+        _placed[ob.session_uid] = _Placed(frame, surface, placement)
     return placement
 
 
