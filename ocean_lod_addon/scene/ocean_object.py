@@ -169,13 +169,18 @@ def refresh(ob, scene) -> None:
     except OceanError as error:
         _report(ob, error)
     else:
-        _problems.pop(ob.session_uid, None)
+        if _problems.pop(ob.session_uid, None):
+            refresh_material(ob, scene)  # it has missed the changes meanwhile
 
 
 def refresh_material(ob, scene) -> None:
-    """Bring an ocean's material in step with its settings."""
-    if is_ocean(ob):
+    """Bring an ocean's material in step with its settings, once they go together."""
+    if not is_ocean(ob):
+        return
+    try:
         ocean_material.apply(ob, scene, planning.PlannedOcean(ob, scene).material)
+    except OceanError as error:
+        _report(ob, error)
 
 
 def prepare_render(ob, scene) -> None:

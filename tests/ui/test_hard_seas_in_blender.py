@@ -11,6 +11,7 @@ import pytest
 from ocean_lod_addon.core import presets
 from ocean_lod_addon.core.spectra.table import SPECTRA
 from ocean_lod_addon.core.spreading.table import SPREADINGS
+from ocean_lod_addon.nodes.material import NODE_NAME
 from ocean_lod_addon.scene import mesh, ocean_object, properties
 
 BY_HEIGHT = {"spectrum": "jonswap", "sized_by": "height"}
@@ -122,3 +123,15 @@ def test_water_shallower_than_the_waves_is_one_clear_line(ocean):
     sea.depth = 5.0
     assert ocean_object.problem(ocean) == ""
     assert not np.array_equal(mesh.read_positions(ocean.data), before)
+
+
+def test_a_material_setting_beside_settings_that_do_not_go_together(ocean, capfd):
+    """Truth: no traceback on the terminal, and the material is right once the settings are mended."""
+    ripples, material = ocean.ocean_lod.ripples, ocean.ocean_lod.material
+    ripples.shortest_wavelength = 7.0  # more than half of the longest
+    material.glitter_strength = 0.375
+    ripples.shortest_wavelength = 0.006
+    assert ocean_object.problem(ocean) == ""
+    assert "Traceback" not in capfd.readouterr().err
+    water = ocean.data.materials[0].node_tree.nodes[NODE_NAME]
+    assert water.inputs["Glitter Strength"].default_value == 0.375
