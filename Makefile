@@ -59,15 +59,18 @@ test-5.2: environment-blender-5.2
 test-4.5: environment-blender-4.5
 	$(BLENDER_4.5) tools/run_tests.py $(TESTS)
 
-# Examples of each property, and steps in Blender; another seed looks elsewhere.
+# Examples of each property, steps in Blender, and frames over which memory stays flat; another seed looks elsewhere.
 FUZZ_EXAMPLES ?= 10000
 FUZZ_STEPS ?= 2000
+FUZZ_FRAMES ?= 2000
 FUZZ_SEED ?= 0
 
 fuzz: fuzz-5.2 fuzz-4.5
 
 fuzz-5.2 fuzz-4.5: fuzz-%: environment-blender-%
-	OCEAN_LOD_EXAMPLES=$(FUZZ_EXAMPLES) $(BLENDER_$*) tools/run_tests.py tests/hard_cases -k any_
+	OCEAN_LOD_EXAMPLES=$(FUZZ_EXAMPLES) $(BLENDER_$*) tools/run_tests.py \
+		tests/hard_cases/test_any_settings.py tests/hard_cases/test_any_light.py
+	OCEAN_LOD_FRAMES=$(FUZZ_FRAMES) $(BLENDER_$*) tools/run_tests.py tests/hard_cases/test_memory_is_flat.py
 	$(BLENDER_$*) tools/fuzz_blender.py --steps $(FUZZ_STEPS) --seed $(FUZZ_SEED)
 
 hard-cases: environment-blender-5.2

@@ -42,6 +42,21 @@ class WrongError(Exception):
     """An invariant that does not hold."""
 
 
+class Watched:
+    """A stream that counts the tracebacks in it: Blender prints those of callbacks, and goes on."""
+
+    def __init__(self, stream):
+        self.stream, self.tracebacks = stream, 0
+
+    def write(self, text):
+        """Pass the text on."""
+        self.tracebacks += "Traceback" in text
+        return self.stream.write(text)
+
+    def __getattr__(self, name):
+        return getattr(self.stream, name)
+
+
 def oceans():
     """All ocean objects, by name."""
     return sorted((ob for ob in bpy.context.scene.objects if ocean_object.is_ocean(ob)), key=lambda ob: ob.name)
@@ -284,6 +299,8 @@ def run_operator(choose):
         except RuntimeError as error:  # an operator reports what can be mended in this way
             if "Traceback" in str(error) or len(str(error).strip().splitlines()) != 1:
                 raise
+    grid = bpy.context.object.ocean_lod.grid
+    grid.cells, grid.levels = min(grid.cells, 64), min(grid.levels, 6)  # a long lens asks for millions of vertices
 
 
 def undo(_choose):
@@ -353,6 +370,8 @@ UNDONE_BY_ITSELF = (undo, redo, save_and_load)
 
 def check():
     """Raise `WrongError` if anything is not as it must be."""
+    if sys.stderr.tracebacks:
+        raise WrongError("a callback failed, as printed above")
     handlers = [h for h in bpy.app.handlers.frame_change_post if "ocean_lod" in h.__module__]
     if len(handlers) != 1:
         raise WrongError(f"{len(handlers)} frame-change handlers")
@@ -422,6 +441,7 @@ def main() -> int:
     parser.add_argument("--steps", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
+    sys.stderr = Watched(sys.stderr)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.context.preferences.edit.undo_steps = 8
     ocean_lod_addon.register()
