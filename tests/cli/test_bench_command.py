@@ -275,9 +275,9 @@ def test_a_sample_costs_what_more_samples_add():
     # 17 samples take 2.0 s, one 0.4 s: a sample is a tenth of a second, whatever comes before the first.
     measured = timing(**{"put on": [9.0], "few": [0.4], "many": [2.0]})
     assert shading.sample_seconds(measured, 17) == pytest.approx(0.1)
-    result = ShadingResult({"CYCLES": {GLOSSY: 1e-7, WATER: 2.5e-7}})
+    result = ShadingResult({"CYCLES": {GLOSSY: 2e-7, WATER: 5e-7}})
     assert result.over_glossy("CYCLES", WATER) == pytest.approx(2.5)
-    assert report.shading_lines(result) == ["  CYCLES: glossy 100, water 250 (2.50 times)"]
+    assert report.shading_lines(result) == ["  CYCLES: glossy 200, water 500 (2.50 times)"]
 
 
 # ---------------------------------------------------------------------------------- the command
