@@ -57,6 +57,7 @@ def _draw_ladder(axes, ladder):
     times = [x for x, _, _ in (*kept, *left_out)]
     if max(times) > _WIDE * min(times):
         axes.set_xscale("log")
+        axes.xaxis.minorticks_off()
     positive = [step.error for step in ladder.steps if step.error > 1e-9]
     if positive and max(positive) > 30.0 * min(positive):
         axes.set_yscale("symlog", linthresh=min(positive))
