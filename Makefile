@@ -11,7 +11,7 @@ MAKE_ENVIRONMENT = $(or $(strip $(PYTHON)),$(NEED_PYTHON)) tools/environment.py
 BLENDER_5.2 = .env/blender-5.2/bin/python
 BLENDER_4.5 = .env/blender-4.5/bin/python
 
-# What `make demo` renders: just under four minutes on two cores. A frame of film costs about 3 s whatever its samples.
+# What `make demo` renders: about five minutes on two idle cores, a frame of film some 4 s of that.
 DEMO_PRESET ?= moderate
 STILL_SAMPLES ?= 64
 FILM_FRAMES ?= 1:36
