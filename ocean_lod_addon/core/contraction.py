@@ -81,8 +81,7 @@ def multiply_with_blas(products) -> None:
 def multiply_without_blas(products) -> None:
     """All products by np.einsum, in pieces spread over the processor's cores."""
     pieces = [piece for product in products for piece in _pieces(product)]
-    for _ in _threads().map(_multiply_piece, pieces):
-        pass
+    in_threads(_multiply_piece, pieces)
 
 
 _PIECE_ROWS, PIECE_COLUMNS = 128, 384
@@ -158,6 +157,12 @@ class _Scratch(threading.local):
 
 
 _scratch = _Scratch()
+
+
+def in_threads(work: Callable[[object], object], pieces) -> None:
+    """Do `work` on all pieces, spread over the processor's cores, as far as NumPy frees the interpreter lock."""
+    for _ in _threads().map(work, pieces):
+        pass
 
 
 @functools.lru_cache(maxsize=1)
