@@ -7,6 +7,7 @@ interpreter lock, products spread over threads. Multiplications are dear there, 
 by the plane's symmetry (MirroredProduct).
 """
 
+import contextlib
 import functools
 import itertools
 import os
@@ -167,7 +168,22 @@ def in_threads(work: Callable[[object], object], pieces) -> None:
 
 @functools.lru_cache(maxsize=1)
 def _threads():
-    return ThreadPoolExecutor(max_workers=os.cpu_count(), thread_name_prefix="ocean_lod")
+    return ThreadPoolExecutor(os.cpu_count(), "ocean_lod", np.setbufsize, (SMALL_BUFFER,))
+
+
+SMALL_BUFFER = 256
+"""Elements that NumPy copies at a time where it wants to. Its own choice, 8192 of each operand, would push out of
+a core's cache what the frame needs next, and be most of what a frame allocates."""
+
+
+@contextlib.contextmanager
+def small_buffers():
+    """Within this context NumPy copies few elements at a time."""
+    before = np.setbufsize(SMALL_BUFFER)
+    try:
+        yield
+    finally:
+        np.setbufsize(before)
 
 
 CONTRACTIONS = {

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .column_blocks import POSITION, ColumnBlock
-from .contraction import CONTRACTIONS, MirroredProduct, Product, fastest_contraction
+from .contraction import CONTRACTIONS, MirroredProduct, Product, fastest_contraction, small_buffers
 from .factors import Level, nearest_vertex
 from .lod import Grid, TileTable, tile_table, tiles
 from .waves import WaveSet
@@ -135,8 +135,9 @@ class FrameKernel:
         at_anchors = np.mod(self._waves.phase_at(time) + anchors @ self._wave_vectors, 2.0 * np.pi)
         phasors = self._waves.amplitude * np.exp(1j * at_anchors)  # (levels, waves)
         phasors = phasors[:, self._order].astype(np.complex64)
-        for level, phasor in zip(self._levels, phasors, strict=True):
-            level.fill(phasor, anchors, blocks, self._visible_rows(level, visible))
+        with small_buffers():
+            for level, phasor in zip(self._levels, phasors, strict=True):
+                level.fill(phasor, anchors, blocks, self._visible_rows(level, visible))
 
     def _visible_rows(self, level, visible):
         """The lines of a level from its first to its last tile that is visible."""

@@ -131,14 +131,16 @@ def _materials(result, engine):
         yield f"{material} {_milliseconds(1e6 * seconds)}{times}"
 
 
-def memory_lines(row: Row) -> list[str]:
-    """What a frame allocates and what an ocean keeps."""
-    lines = [
-        f"  allocated while a frame is made: {row.allocated} bytes ({row.vertices} vertices, {row.waves} waves)",
-        f"  kept per vertex: {row.kernel_bytes / row.vertices:.1f} bytes of factors, 12 of positions",
-    ]
-    if row.mesh_bytes is not None:
-        lines.append(f"  in Blender's mesh per vertex: {row.mesh_bytes / row.vertices:.1f} bytes")
+def memory_lines(rows: list[Row]) -> list[str]:
+    """What a frame allocates and what an ocean keeps: the smallest case and the largest."""
+    lines = []
+    for row in (rows[0], rows[-1]):
+        kept = f"{row.kernel_bytes / row.vertices:.1f} bytes of factors, 12 of positions"
+        if row.mesh_bytes is not None:
+            kept += f", {row.mesh_bytes / row.vertices:.1f} in Blender's mesh"
+        lines.append(f"  {row.kind}, {row.vertices} vertices, {row.waves} waves")
+        lines.append(f"    allocated while a frame is made: {row.allocated / 1e3:.0f} kB")
+        lines.append(f"    kept per vertex: {kept}")
     return lines
 
 

@@ -59,7 +59,7 @@ def measure_and_print(plan: Plan, contraction: str, with_blender: bool) -> Resul
         group = measurements.measure_group(plan, cells, wave_counts, contraction, with_blender)
         print("\n".join(report.line(row) for row in group), flush=True)
         rows += group
-    _print_section("Memory", report.memory_lines(rows[-1]))
+    _print_section("Memory", report.memory_lines(rows))
 
     scaling = measurements.measure_scaling(plan, contraction)
     _print_section("Time of a surface", report.scaling_lines(scaling))
