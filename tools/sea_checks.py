@@ -133,7 +133,7 @@ def add_modifier_ocean(scene):
 def add_ocean(scene):
     """This extension's ocean, as the picture calls for."""
     grid = Grid(cell_size=2.0, cells=1024, levels=1)
-    sea = Sea(systems=(WaveSystem(wind_speed=AERIAL_WIND),))
+    sea = Sea(systems=(WaveSystem(wind_speed=AERIAL_WIND),), wave_count=1024)
     scene.collection.objects.link(ocean_object.create(scene, sea, grid, MaterialSettings()))
 
 
@@ -190,13 +190,10 @@ def flicker(options):
         for number in range(options.frames):
             scene.frame_set(1 + number)
             scene.camera.location.x = 0.05 * number
-            picture = np.minimum(luminance(scene), 1.0)  # as it is seen: glitter is white
+            picture = luminance(scene)
             rows, columns = (side // factor for side in picture.shape)
-            frames.append(
-                picture[: rows * factor, : columns * factor]
-                .reshape(rows, factor, columns, factor)
-                .mean(axis=(1, 3))
-            )
+            squares = picture[: rows * factor, : columns * factor].reshape(rows, factor, columns, factor)
+            frames.append(np.minimum(squares.mean(axis=(1, 3)), 1.0))  # as they are seen: glitter is white
             if options.save and number == 0:
                 save_gray(Path(options.save) / f"{options.engine}_{name}.png", frames[0])
         results[name] = float(np.sqrt(np.mean(np.diff(frames, axis=0) ** 2)))

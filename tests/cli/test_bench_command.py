@@ -309,6 +309,8 @@ def test_the_saved_results_are_plain_json(tiny):
     assert saved["rows"][0]["timings"]["products"]["median_ms"] > 0.0
     assert {target["verdict"] for target in saved["targets"]} <= {PASS, MISS}
     assert saved["correctness"]["swim"]["frames"] == 3
+    assert [images["pixels"] for images in saved["ripples"]] == [256, 512, 1024, 2048]
+    assert all(set(images["timing"]["parts_median_ms"]) == {"images", "write"} for images in saved["ripples"])
     assert [view["vertices"] for view in saved["views"]] == [Grid(cells=32, levels=3).vertex_count] * 2
     assert all(f"{target['target']}" in tiny[1] for target in saved["targets"])
 

@@ -130,6 +130,21 @@ def menu_ocean() -> Contestant:
     return Contestant("menu ocean", {"handler": handler, DEPSGRAPH: placed.evaluate})
 
 
+def writing_images(contestant: Contestant, pixels: list[np.ndarray]) -> Contestant:
+    """The contestant, whose result `pixels` is written into images of Blender as well."""
+    import bpy
+
+    sides = [len(each) for each in pixels]
+    images = [bpy.data.images.new("bench", side, side, alpha=True, float_buffer=True) for side in sides]
+
+    def write(_time):
+        for image, each in zip(images, pixels, strict=True):
+            image.pixels.foreach_set(each.ravel())
+            image.update_tag()
+
+    return Contestant(contestant.name, {**contestant.parts, WRITE: write})
+
+
 def ocean_modifier(name: str, mode: str, cells: int) -> Contestant:
     """Blender's Ocean modifier with (cells + 1)^2 vertices; `mode` is GENERATE or DISPLACE."""
     import bpy

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.lod import Grid
+from ...core.ocean import Ocean, Surface
+from ...core.parameters import parameters_of
+from ...core.ripple_settings import Ripples
 from ...core.sea import Sea, WaveSystem
 from ..swim import SHOT_GRID
 from . import in_blender, shading, workloads
@@ -310,6 +313,38 @@ def measure_views(plan: Plan, contraction: str) -> list[ViewResult]:
             ViewResult(name, case.surface.vertex_count, len(case.surface.waves), case.share_in_view, timings)
         )
     return results
+
+
+@dataclass(frozen=True, eq=False)
+class RippleImages:
+    """The ripple images of one frame: how many, of how many pixels a side, and what they take."""
+
+    texels: int
+    images: int
+    timing: Timing
+
+    def as_mapping(self) -> dict:
+        """For the saved file."""
+        return {"pixels": self.texels, "images": self.images, "timing": self.timing.as_mapping()}
+
+
+def measure_ripples(plan: Plan, with_blender: bool) -> list[RippleImages]:
+    """The images at each resolution that the ripples have, written into Blender's if there is one."""
+    bumps = {
+        option.key: Surface(Ocean(ripples=Ripples(resolution=option.key))).bump
+        for option in parameters_of(Ripples)["resolution"].options
+    }
+    contestants = []
+    with in_blender.fresh_data() if with_blender else contextlib.nullcontext():
+        for name, bump in bumps.items():
+            pixels = [np.empty((tile.texels, tile.texels, 4), np.float32) for tile in bump.layout.tiles]
+            contestant = workloads.ripple_images(name, pixels, bump)
+            contestants.append(in_blender.writing_images(contestant, pixels) if with_blender else contestant)
+        timings = measure(contestants, plan.rounds)
+    return [
+        RippleImages(bump.layout.tiles[0].texels, len(bump.layout.tiles), timings[name])
+        for name, bump in bumps.items()
+    ]
 
 
 def measure_menu_ocean(plan: Plan) -> Timing:

@@ -12,6 +12,7 @@ from .measurements import (
     GENERATE,
     PRODUCTS,
     UPDATE,
+    RippleImages,
     Row,
     Scaling,
     ViewResult,
@@ -19,6 +20,7 @@ from .measurements import (
 from .shading import GLOSSY, ShadingResult
 from .targets import NOT_MEASURED, Target
 from .timing import Timing
+from .workloads import IMAGES
 
 _NOTHING, _WIDTH = "-", 9
 
@@ -110,6 +112,16 @@ def correctness_lines(correctness: Correctness) -> list[str]:
         f"  height error over significant height: {precision.at_origin:.1e} at the origin, "
         f"{precision.far_and_late:.1e} at 100 km and 1e6 s",
     ]
+
+
+def ripple_lines(ripples: list[RippleImages]) -> list[str]:
+    """The images at each resolution; ripples that are off have none."""
+    lines = []
+    for each in ripples:
+        made = f"  {each.images} of {each.texels} x {each.texels}: {_milliseconds(each.timing.part(IMAGES))} ms"
+        blender = f", then Blender's {_milliseconds(each.timing.part(WRITE))} ms"
+        lines.append(made + (blender if WRITE in each.timing.parts else ""))
+    return [*lines, "  ripples off: no image, no node, no time"]
 
 
 def menu_ocean_line(timing: Timing) -> str:

@@ -9,7 +9,7 @@ from ...core.sea import Sea
 from . import measurements, report, shading, targets
 from .correctness import Correctness, measure_correctness
 from .machine import Machine, disturbance, load_average, this_machine
-from .measurements import Plan, Row, Scaling, ViewResult
+from .measurements import Plan, RippleImages, Row, Scaling, ViewResult
 from .shading import ShadingResult
 from .targets import Target
 from .timing import Timing
@@ -28,6 +28,7 @@ class Results:
     scaling: Scaling
     views: list[ViewResult]
     correctness: Correctness
+    ripples: list[RippleImages]
     menu_ocean: Timing | None
     shading: ShadingResult | None
     targets: list[Target]
@@ -43,6 +44,7 @@ class Results:
             "scaling": self.scaling.as_mapping(),
             "views": [view.as_mapping() for view in self.views],
             "correctness": self.correctness.as_mapping(),
+            "ripples": [images.as_mapping() for images in self.ripples],
             "menu_ocean": self.menu_ocean and self.menu_ocean.as_mapping(),
             "shading": self.shading and self.shading.as_mapping(),
             "targets": [target.as_mapping() for target in self.targets],
@@ -71,6 +73,9 @@ def measure_and_print(plan: Plan, contraction: str, with_blender: bool) -> Resul
     correctness = measure_correctness(plan.swim_frames, plan.swim_grid, contraction)
     _print_section("What must be right", report.correctness_lines(correctness))
 
+    ripples = measurements.measure_ripples(plan, with_blender)
+    _print_section("The ripple images of a frame", report.ripple_lines(ripples))
+
     menu_ocean = measurements.measure_menu_ocean(plan) if with_blender else None
     if menu_ocean is not None:
         title = f"The ocean of the Add menu ({Grid().vertex_count} vertices, {Sea().wave_count} waves)"
@@ -98,6 +103,7 @@ def measure_and_print(plan: Plan, contraction: str, with_blender: bool) -> Resul
         scaling,
         views,
         correctness,
+        ripples,
         menu_ocean,
         in_renders,
         reached,

@@ -12,6 +12,7 @@ from ...core.discretise import discretise
 from ...core.kernel import FrameKernel, ReusedArray
 from ...core.lod import Grid, tiles
 from ...core.ocean import Ocean, Surface
+from ...core.ripples.bump import Bump
 from ...core.sea import Sea
 from ...core.waves import WaveSet
 from .timing import Contestant, Timing
@@ -19,6 +20,20 @@ from .timing import Contestant, Timing
 _CELL_SIZE = 0.1
 
 SQUARE, HORIZON = "square", "horizon"
+
+
+IMAGES = "images"
+"""The part that computes the ripple images of a frame."""
+
+
+def ripple_images(name: str, pixels: list[np.ndarray], bump: Bump) -> Contestant:
+    """All images of a frame, written into `pixels`."""
+
+    def compute(time):
+        for number, out in enumerate(pixels):
+            bump.image(number, time, out)
+
+    return Contestant(name, {IMAGES: compute})
 
 
 @dataclass(frozen=True, eq=False)
