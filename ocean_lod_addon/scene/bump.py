@@ -28,14 +28,16 @@ def ensure_attributes(mesh, ocean: Ocean) -> None:
 
 
 def write_static(mesh, surface: Surface) -> None:
-    """Write what depends on settings alone."""
-    if surface.bump is not None:
+    """Write what depends on settings alone, where there are ripples."""
+    if surface.bump is not None and mesh_arrays.has_ripple_attributes(mesh):
         mesh_arrays.write_ripple_amplitudes(mesh, surface.bump.amplitudes())
 
 
 def write_placement(mesh, surface: Surface, placement: Placement) -> None:
     """Write what depends on where the plane stands: the places that ripples are looked up at."""
-    if surface.bump is not None and not mesh_arrays.rest_positions_are_for(mesh, placement.anchors):
+    if surface.bump is None or not mesh_arrays.has_ripple_attributes(mesh):
+        return
+    if not mesh_arrays.rest_positions_are_for(mesh, placement.anchors):
         mesh_arrays.write_rest_positions(mesh, placement.anchors, surface.undisturbed(placement.anchors))
 
 

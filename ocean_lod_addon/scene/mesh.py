@@ -109,6 +109,11 @@ def write_gusts(mesh, variance: np.ndarray, factor: np.ndarray) -> None:
     mesh.attributes[GUST].data.foreach_set("value", factor)
 
 
+def has_ripple_attributes(mesh) -> bool:
+    """Whether the mesh has the attributes that ripples need: a frame in which they come into sight has not."""
+    return REST_POSITION in mesh.attributes
+
+
 def write_ripple_amplitudes(mesh, amplitudes: np.ndarray) -> None:
     """Set the amplitudes, (vertices, bands) float32, of the bands that the mesh shows in part."""
     for number, first in enumerate(range(0, amplitudes.shape[1], 4)):

@@ -102,3 +102,19 @@ def test_the_sea_is_not_black(ocean, change):
     settings.file_format = "OPEN_EXR"
     image.save_render(path, scene=scene)
     assert read_pixels(path)[..., :3].mean() > 0.02
+
+
+def test_a_camera_that_comes_down_to_the_water(ocean):
+    """Truth: ripples that come into sight in a frame break nothing; their attributes wait for a render."""
+    scene = bpy.context.scene
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    camera.location.z = 1e5
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    bpy.context.view_layer.update()
+    ocean_object.refresh(ocean, scene)
+    assert not ocean_object.plan(ocean, scene).on("ripples")
+    camera.location.z = 2.0
+    scene.frame_set(5)
+    assert ocean_object.plan(ocean, scene).on("ripples")
+    assert ocean_object.problem(ocean) == ""
