@@ -7,6 +7,7 @@ from pathlib import Path
 from ..core import presets
 from ..core.discretise import discretise
 from ..core.effects import Effects
+from ..core.foam_settings import Foam
 from ..core.framing import Framing
 from ..core.lod import Grid
 from ..core.plan import Facts, Plan, Settings, decide
@@ -58,6 +59,7 @@ def preset_plan(options) -> Plan:
         Framing(),
         preset.material,
         Ripples(),
+        Foam(),
         Effects(**given_settings(options, Effects)),
     )
     facts = Facts(engine=options.engine, shutter=options.shutter, camera=needs)
@@ -79,6 +81,5 @@ def print_plan(plan: Plan) -> None:
     for decision in plan.decisions:
         print(f"{decision.label:{width}}  {'on ' if decision.on else 'off'}  {decision.why}")
     print()
-    columns = sum(block.columns for block in plan.blocks)
-    print(f"Moved: {plan.tiles if plan.tiles != 'all' else 'all tiles'}; {columns} columns for each vertex")
+    print(f"Moved: {plan.tiles if plan.tiles != 'all' else 'all tiles'}; {plan.columns} columns for each vertex")
     print(f"Attributes that come and go: {', '.join(plan.attributes) or 'none'}")

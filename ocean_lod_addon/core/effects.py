@@ -34,6 +34,7 @@ class Effects:
     velocity: str = _effect(
         "Velocity", "Velocity of the water at each vertex, for motion blur in Cycles, exports and simulations"
     )
+    foam: str = _effect("Foam", "Whitecaps of breaking waves, and the foam that they leave")
     ripples: str = _effect("Ripples", "Short waves as a bump of the surface")
     gusts: str = _effect("Gusts", "Patches of stronger and weaker ripples that drift with the wind")
     skewed_slopes: str = _effect("Skewed Slopes", "Steeper ripples towards the wind in the sun's reflection")

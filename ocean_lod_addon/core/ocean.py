@@ -10,6 +10,8 @@ import numpy as np
 from .camera_view import CameraView
 from .column_blocks import ColumnBlock
 from .discretise import check_wave_height, discretise
+from .foam.whitecaps import Whitecaps
+from .foam_settings import Foam
 from .framing import Framing
 from .gusts import gust_factor, gust_waves
 from .kernel import FrameKernel, ReusedArray
@@ -30,6 +32,7 @@ class Ocean:
     grid: Grid = field(default_factory=Grid)
     framing: Framing = field(default_factory=Framing)
     ripples: Ripples = field(default_factory=Ripples)
+    foam: Foam | None = None
 
     @property
     def fingerprint(self) -> str:
@@ -105,3 +108,10 @@ class Surface:
         if self.ocean.ripples.kind == "off":
             return None
         return Bump(self.ocean.ripples, self.ocean.sea, self.ocean.grid, self.waves)
+
+    @functools.cached_property
+    def whitecaps(self) -> Whitecaps | None:
+        """The foam of breaking waves, or None if it is off."""
+        if self.ocean.foam is None:
+            return None
+        return Whitecaps(self.ocean.foam, self.ocean.sea, self.ocean.grid, self.waves)

@@ -13,6 +13,9 @@ import numpy as np
 
 from .column_blocks import POSITION, TANGENTS, VELOCITY, ColumnBlock
 from .effects import OFF, ON, Effects
+from .foam.whitecap_law import EFFECTIVE_SHARE
+from .foam.whitecaps import sea_breaker_wavenumber, sea_coverage, sea_wind
+from .foam_settings import Foam
 from .framing import Framing
 from .lod import Grid
 from .material_settings import MaterialSettings
@@ -40,8 +43,19 @@ VELOCITY_ATTRIBUTE = "velocity"
 NORMAL_ATTRIBUTE = "custom_normal"
 """Point attribute, FLOAT_VECTOR, that Blender shades with in place of its own normals."""
 
-EFFECT_ATTRIBUTES = (NORMAL_ATTRIBUTE, VELOCITY_ATTRIBUTE)
-"""The attributes that come and go with the plan's columns."""
+FOAM_ATTRIBUTE = "ocean_foam"
+"""Point attribute, FLOAT, 0 to 1: share of the area around a vertex that is white."""
+
+WHITECAPS_ATTRIBUTE = "ocean_foam_whitecaps"
+"""Point attribute, FLOAT, 0 to 1: how much of the foam is whitecaps; far away it is a uniform share of the sea."""
+
+EFFECT_ATTRIBUTES = {
+    NORMAL_ATTRIBUTE: "FLOAT_VECTOR",
+    VELOCITY_ATTRIBUTE: "FLOAT_VECTOR",
+    FOAM_ATTRIBUTE: "FLOAT",
+    WHITECAPS_ATTRIBUTE: "FLOAT",
+}
+"""The attributes that come and go with the plan's columns, and their types."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +87,7 @@ class Settings:
     framing: Framing
     material: MaterialSettings
     ripples: Ripples
+    foam: Foam
     effects: Effects
 
 
@@ -93,6 +108,8 @@ class Plan:
     decisions: tuple[Decision, ...]
     tiles: str
     """"none", "in view" or "all"."""
+    foam_instants: int
+    """How many instants foam is looked for at, where it is on."""
 
     def on(self, effect: str) -> bool:
         """Whether an effect, called as in core.effects, is on."""
@@ -100,7 +117,7 @@ class Plan:
 
     @property
     def blocks(self) -> tuple[ColumnBlock, ...]:
-        """Columns of the kernel, none for a frame without water."""
+        """Columns of the kernel but for those of foam, none for a frame without water."""
         if self.tiles == "none":
             return ()
         return (
@@ -110,11 +127,18 @@ class Plan:
         )
 
     @property
+    def columns(self) -> int:
+        """Numbers that the kernel works out for each vertex."""
+        foam = self.foam_instants if self.blocks and self.on("foam") else 0
+        return sum(block.columns for block in self.blocks) + foam
+
+    @property
     def attributes(self) -> tuple[str, ...]:
         """Attributes of the mesh that come and go with effects."""
         return (
             *((NORMAL_ATTRIBUTE,) if self.on("analytic_normals") else ()),
             *((VELOCITY_ATTRIBUTE,) if self.on("velocity") else ()),
+            *((FOAM_ATTRIBUTE, WHITECAPS_ATTRIBUTE) if self.on("foam") else ()),
         )
 
     def to_json(self) -> dict:
@@ -124,7 +148,7 @@ class Plan:
                 decision.effect: {"on": decision.on, "why": decision.why} for decision in self.decisions
             },
             "tiles": self.tiles,
-            "columns_per_vertex": sum(block.columns for block in self.blocks),
+            "columns_per_vertex": self.columns,
             "attributes": list(self.attributes),
         }
 
@@ -144,6 +168,7 @@ def decide(facts: Facts, settings: Settings, waves: WaveSet) -> Plan:
         "horizontal_displacement": _horizontal_displacement(facts, settings, waves),
         "analytic_normals": _analytic_normals(facts, settings, waves),
         "velocity": _velocity(facts, waves),
+        "foam": _foam(facts, settings),
         "ripples": _ripples(facts, settings),
         "gusts": _gusts(facts, settings),
         "skewed_slopes": _skewed_slopes(facts, settings),
@@ -155,11 +180,11 @@ def decide(facts: Facts, settings: Settings, waves: WaveSet) -> Plan:
     for name, parameter in parameters_of(Effects).items():
         answer = _word(getattr(settings.effects, name), auto[name])
         decisions.append(Decision(name, parameter.label, answer.on, answer.why))
-    return Plan(tuple(decisions), _tiles(facts, settings))
+    return Plan(tuple(decisions), _tiles(facts, settings), settings.foam.memory_steps)
 
 
 def effective(settings: Settings, plan: Plan) -> Settings:
-    """The settings as the plan wants them: what it leaves out is switched off in them, what it adds, on."""
+    """The settings as the plan wants them: what it leaves out is off in them (foam: None), what it adds, on."""
     choppy = plan.on("horizontal_displacement")
     return replace(
         settings,
@@ -177,6 +202,7 @@ def effective(settings: Settings, plan: Plan) -> Settings:
             kind=settings.ripples.kind if plan.on("ripples") else "off",
             gusts=plan.on("gusts"),
         ),
+        foam=settings.foam if plan.on("foam") else None,
     )
 
 
@@ -274,6 +300,25 @@ def _rms_acceleration(waves):
     """omega^2 A sqrt((1 + C^2) / 2) of all waves together, m/s^2."""
     omega, A, C = waves.angular_frequency, waves.amplitude, waves.orbit_ratio
     return math.sqrt(0.5 * float(np.sum((omega**2 * A) ** 2 * (1.0 + C**2))))
+
+
+def _foam(facts, settings):
+    """A whitecap smaller than a pixel shows by its share of it, and all of them by their share of the sea."""
+    coverage = sea_coverage(settings.foam, settings.sea)
+    if coverage == 0.0:
+        wind = f"{sea_wind(settings.sea):g} m/s of wind"
+        reason = "Foam's Coverage is 0" if settings.foam.coverage == 0.0 else f"No waves break in {wind}"
+        return Auto(False, reason, possible=False)
+    nothing = _no_shading(facts)
+    if nothing:
+        return Auto(False, nothing)
+    pixels = _pixels(facts, np.pi / sea_breaker_wavenumber(settings.sea))
+    share = 1.0 if pixels is None else min(pixels, 1.0) ** 2
+    steps = BRIGHTNESS_STEPS * settings.foam.reflectance * max(share, EFFECTIVE_SHARE * coverage)
+    return Auto(
+        steps >= 1.0,
+        f"Whitecaps cover {coverage:.2%} of the sea and change a pixel by up to {steps:.0f} of 255 steps",
+    )
 
 
 def _ripples(facts, settings):

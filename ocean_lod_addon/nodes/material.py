@@ -59,7 +59,7 @@ MATERIAL_KEY = "ocean_lod_material"
 """Custom property of a material that this extension made: the name it was made under."""
 
 APPLIED_KEY = "ocean_lod_applied"
-"""Custom property of such a material: the socket values that were last set from settings, as JSON."""
+"""Custom property of such a material or node: the socket values last set from settings, as JSON."""
 
 
 def find_material(name: str):
@@ -85,7 +85,7 @@ def ensure_material(name: str, settings: MaterialSettings) -> bpy.types.Material
         _build_tree(tree)
     if tree.nodes[NODE_NAME].node_tree != group:
         _use_group(material, group)
-    _apply(material, socket_values(settings))
+    write_changed(material, tree.nodes[NODE_NAME].inputs, socket_values(settings))
     return material
 
 
@@ -93,23 +93,23 @@ def set_sun(material: bpy.types.Material, sun: Sun | None) -> None:
     """Tell the material which sun to reflect; None for no sun. Sockets that hold it already are not touched."""
     inputs = material.node_tree.nodes[NODE_NAME].inputs
     if sun is None:
-        _write(inputs[SUN_IRRADIANCE.name], (0.0, 0.0, 0.0, 1.0))
+        write_socket(inputs[SUN_IRRADIANCE.name], (0.0, 0.0, 0.0, 1.0))
         return
-    _write(inputs[SUN_DIRECTION.name], sun.direction)
-    _write(inputs[SUN_IRRADIANCE.name], (*sun.irradiance, 1.0))
-    _write(inputs[SUN_ANGLE.name], sun.angular_diameter)
-    _write(inputs[MISSING_SUN.name], 0.0 if sun.shines_in_eevee else 1.0)
+    write_socket(inputs[SUN_DIRECTION.name], sun.direction)
+    write_socket(inputs[SUN_IRRADIANCE.name], (*sun.irradiance, 1.0))
+    write_socket(inputs[SUN_ANGLE.name], sun.angular_diameter)
+    write_socket(inputs[MISSING_SUN.name], 0.0 if sun.shines_in_eevee else 1.0)
 
 
 def set_wind(material: bpy.types.Material, wind_speed: float, direction: float) -> None:
     """Tell a material with skewed slopes the wind, in m/s at 12.5 m, and where to, rad from the object's x."""
     inputs = material.node_tree.nodes[NODE_NAME].inputs
     if WIND_SPEED.name in inputs:
-        _write(inputs[WIND_SPEED.name], wind_speed)
-        _write(inputs[WIND_DIRECTION.name], direction)
+        write_socket(inputs[WIND_SPEED.name], wind_speed)
+        write_socket(inputs[WIND_DIRECTION.name], direction)
 
 
-def _write(socket, value):
+def write_socket(socket, value):
     """Set a socket unless it has the value, since every write makes the renderers update the material."""
     if not np.array_equal(np.float32(_plain(socket)), np.float32(value)):
         socket.default_value = value
@@ -201,13 +201,15 @@ def _plain(socket):
     return value if np.isscalar(value) else tuple(value)
 
 
-def _apply(material, values):
-    """Write the socket values that differ from those written last time."""
-    applied = json.loads(material.get(APPLIED_KEY, "{}"))
+def write_changed(owner, inputs, values: dict) -> None:
+    """Write the socket values that differ from those written last time, which `owner` remembers.
+
+    What an artist typed into a socket stays until its setting changes.
+    """
+    applied = json.loads(owner.get(APPLIED_KEY, "{}"))
     values = json.loads(json.dumps(values))  # as they will read back
-    inputs = material.node_tree.nodes[NODE_NAME].inputs
     for name, value in values.items():
         if applied.get(name) != value:
             inputs[name].default_value = value
     if applied != values:
-        material[APPLIED_KEY] = json.dumps(values)
+        owner[APPLIED_KEY] = json.dumps(values)

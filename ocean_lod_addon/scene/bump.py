@@ -5,7 +5,6 @@ import math
 
 from ..core.camera_view import CameraView
 from ..core.ocean import Ocean, Surface
-from ..core.placement import Placement
 from ..core.ripples.bump import bump_layout
 from ..nodes.material import MATERIAL_KEY
 from ..nodes.ripple_parts import PIXEL_PROPERTY
@@ -33,33 +32,24 @@ def write_static(mesh, surface: Surface) -> None:
         mesh_arrays.write_ripple_amplitudes(mesh, surface.bump.amplitudes())
 
 
-def write_placement(mesh, surface: Surface, placement: Placement) -> None:
-    """Write what depends on where the plane stands: the places that ripples are looked up at."""
-    if surface.bump is None or not mesh_arrays.has_ripple_attributes(mesh):
-        return
-    if not mesh_arrays.rest_positions_are_for(mesh, placement.anchors):
-        mesh_arrays.write_rest_positions(mesh, placement.anchors, surface.undisturbed(placement.anchors))
-
-
 def is_shown(material) -> bool:
     """Whether a material has the nodes of ripples."""
     return RIPPLES_NODE_NAME in material.node_tree.nodes
 
 
-def apply(ob, scene, material, surface: Surface, time: float) -> None:
+def apply(ob, material, surface: Surface, time: float) -> None:
     """Give the material images and nodes for the ripples, or take them away; not for handlers."""
     owner = material[MATERIAL_KEY]
     if surface.bump is None:
         hide_ripples(material)
         remove_images(owner)
-        ob.pop(PIXEL_PROPERTY, None)
         return
     show_ripples(material, surface.bump.layout, ensure_images(owner, surface.bump.layout))
-    update(ob, scene, surface, time)
+    update(ob, surface, time)
 
 
-def update(ob, scene, surface: Surface, time: float, depsgraph=None) -> None:
-    """Show the ripples at `time` in s as the scene's camera sees them; for every frame."""
+def update(ob, surface: Surface, time: float) -> None:
+    """Show the ripples at `time` in s; for every frame."""
     bump = surface.bump
     if bump is None:
         return
@@ -69,6 +59,15 @@ def update(ob, scene, surface: Surface, time: float, depsgraph=None) -> None:
             if None not in images:
                 write_images(images, bump, time)
                 set_ripple_values(material, bump.tensors, bump.wave_height)
+
+
+def forget_pixel(ob) -> None:
+    """Take away what `update_pixel` wrote."""
+    ob.pop(PIXEL_PROPERTY, None)
+
+
+def update_pixel(ob, scene, depsgraph=None) -> None:
+    """Tell the material how large a pixel of the scene's camera is on the water; for every frame."""
     evaluated = ob if depsgraph is None else ob.evaluated_get(depsgraph)
     pixel = (*pixel_width(placing.camera_view(evaluated, scene, depsgraph), scene), 0.0)
     if tuple(ob.get(PIXEL_PROPERTY, ())) != pixel:

@@ -9,7 +9,7 @@ SLOPE_VARIANCE = "ocean_slope_variance"
 """Point attribute, FLOAT_VECTOR: unresolved slope variance (xx, yy, xy) in the object's axes, for shading."""
 
 REST_POSITION = "ocean_rest_position"
-"""Point attribute, FLOAT2: undisturbed x, y in m, where ripples are looked up; only with ripples."""
+"""Point attribute, FLOAT2: undisturbed x, y in m, where ripples and foam are looked up; only with these."""
 
 RIPPLE_AMPLITUDE = "ocean_ripple_amplitude_"
 """Point attributes, FLOAT_COLOR, numbered from 0: what the mesh leaves of each band to the ripples, by fours."""
@@ -60,14 +60,15 @@ def write_slope_variance(mesh, variance: np.ndarray) -> None:
     mesh.attributes[SLOPE_VARIANCE].data.foreach_set("vector", variance.ravel())
 
 
-def ensure_vector_attributes(mesh, wanted, possible) -> None:
-    """Of the attributes called `possible`, let the mesh have exactly those `wanted`; not for handlers."""
+def ensure_attributes(mesh, wanted, possible: dict[str, str]) -> None:
+    """Of the attributes in `possible`, with their types, let the mesh have those `wanted`; not for handlers."""
     for name in possible:
         if name in mesh.attributes and name not in wanted:
             mesh.attributes.remove(mesh.attributes[name])
     for name in wanted:
         if name not in mesh.attributes:
-            mesh.attributes.new(name, "FLOAT_VECTOR", "POINT")
+            mesh.attributes.new(name, possible[name], "POINT")
+            mesh.pop(_FINGERPRINT, None)  # it may be a static one, still to be written
 
 
 def write_vectors(mesh, name: str, vectors: np.ndarray) -> None:
@@ -75,22 +76,25 @@ def write_vectors(mesh, name: str, vectors: np.ndarray) -> None:
     mesh.attributes[name].data.foreach_set("vector", vectors.ravel())
 
 
+def write_floats(mesh, name: str, values: np.ndarray) -> None:
+    """Set a FLOAT attribute, (vertices,) float32."""
+    mesh.attributes[name].data.foreach_set("value", values)
+
+
 def ensure_ripple_attributes(mesh, bands: int) -> None:
     """Attributes for ripples of which this many bands are shown by the mesh in part; not for handlers."""
     wanted = {f"{RIPPLE_AMPLITUDE}{number}": "FLOAT_COLOR" for number in range(-(-bands // 4))}
-    wanted[REST_POSITION] = "FLOAT2"
     remove_ripple_attributes(mesh, keep=wanted)
     for name, kind in wanted.items():
         if name not in mesh.attributes:
             mesh.attributes.new(name, kind, "POINT")
-            mesh.pop(_REST_ANCHORS, None)
             mesh.pop(_FINGERPRINT, None)
 
 
 def remove_ripple_attributes(mesh, keep=()) -> None:
     """Remove what ripples need, but for the attributes called `keep`."""
     for name in [attribute.name for attribute in mesh.attributes]:
-        if name not in keep and (name == REST_POSITION or name.startswith(RIPPLE_AMPLITUDE)):
+        if name not in keep and name.startswith(RIPPLE_AMPLITUDE):
             mesh.attributes.remove(mesh.attributes[name])
 
 
@@ -121,6 +125,22 @@ def write_ripple_amplitudes(mesh, amplitudes: np.ndarray) -> None:
         part = amplitudes[:, first : first + 4]
         four[:, : part.shape[1]] = part
         mesh.attributes[f"{RIPPLE_AMPLITUDE}{number}"].data.foreach_set("color", four.ravel())
+
+
+def ensure_rest_positions(mesh, wanted: bool) -> None:
+    """Let the mesh have the attribute of undisturbed positions or not; not for handlers."""
+    if wanted == (REST_POSITION in mesh.attributes):
+        return
+    mesh.pop(_REST_ANCHORS, None)
+    if wanted:
+        mesh.attributes.new(REST_POSITION, "FLOAT2", "POINT")
+    else:
+        mesh.attributes.remove(mesh.attributes[REST_POSITION])
+
+
+def has_rest_positions(mesh) -> bool:
+    """Whether the mesh has the attribute of undisturbed positions."""
+    return REST_POSITION in mesh.attributes
 
 
 def rest_positions_are_for(mesh, anchors: np.ndarray) -> bool:

@@ -7,6 +7,7 @@ from ..core.material_settings import MaterialSettings
 from ..core.roughness import roughening_system
 from ..core.sea import Sea
 from ..core.wind import COX_MUNK_HEIGHT, wind_at_height
+from ..nodes.foam_material import follow_sun
 from ..nodes.material import MATERIAL_KEY, ensure_material, find_material, set_sun, set_wind
 from ..nodes.scene_sun import claim_sun, scene_sun
 from . import properties
@@ -39,6 +40,7 @@ def set_surroundings(ob, scene, sea: Sea) -> None:
     rough = roughening_system(sea)
     for material in materials:
         set_sun(material, sun)
+        follow_sun(material)
         if rough is not None:
             system = sea.systems[rough]
             set_wind(material, wind_at_height(system.wind_speed, COX_MUNK_HEIGHT), system.direction)

@@ -20,10 +20,10 @@ from ..core.material_settings import MaterialSettings
 from ..core.normals import surface_normals
 from ..core.ocean import Ocean, Surface
 from ..core.ocean_time import sea_time
-from ..core.plan import EFFECT_ATTRIBUTES, NORMAL_ATTRIBUTE, VELOCITY_ATTRIBUTE, Plan
+from ..core.plan import EFFECT_ATTRIBUTES, FOAM_ATTRIBUTE, NORMAL_ATTRIBUTE, VELOCITY_ATTRIBUTE, Plan
 from ..core.sea import Sea
 from ..nodes.pass_through import ensure_pass_through
-from . import bump, clock, frame_times, ocean_material, placing, planning, properties
+from . import bump, clock, foam, frame_times, ocean_material, placing, planning, properties
 from . import mesh as mesh_arrays
 
 _MODIFIER_NAME = "Ocean LOD"
@@ -43,7 +43,7 @@ def _surface(ocean: Ocean) -> Surface:
     return Surface(ocean)
 
 
-@functools.lru_cache(maxsize=5)
+@functools.lru_cache(maxsize=6)
 def _buffer(vertex_count: int, columns: int, number: int = 0) -> ReusedArray:
     """Memory that kernels write into; another `number` is another array."""
     return ReusedArray(np.empty((vertex_count, columns), np.float32))
@@ -68,7 +68,7 @@ def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"
         _rebuild_and_move(ob, scene)
         planned = planning.PlannedOcean(ob, scene)
         ocean_material.apply(ob, scene, planned.material)
-        _apply_ripples(ob, scene, planned.ocean)
+        _apply_surface_nodes(ob, scene, planned.ocean)
     except OceanError:
         bpy.data.meshes.remove(ob.data)
         raise
@@ -123,7 +123,9 @@ def update(ob, scene, depsgraph) -> None:
         time = scene_sea_time(ob.evaluated_get(depsgraph), scene)
         with_velocity = depsgraph.mode == "RENDER" or planned.plan.on("velocity")
         _write_surface(ob, surface, placement, time, with_velocity, stages)
-        bump.update(ob, scene, surface, time, depsgraph)
+        bump.update(ob, surface, time)
+        if _looks_up_textures(planned.ocean):
+            bump.update_pixel(ob, scene, depsgraph)
         stages.done("ripples")
     frame_times.keep(ob, stages)
 
@@ -165,7 +167,7 @@ def refresh(ob, scene) -> None:
     if not is_ocean(ob):
         return
     try:
-        _apply_ripples(ob, scene, _rebuild_and_move(ob, scene).ocean)
+        _apply_surface_nodes(ob, scene, _rebuild_and_move(ob, scene).ocean)
     except OceanError as error:
         _report(ob, error)
     else:
@@ -198,8 +200,9 @@ def prepare_render(ob, scene) -> None:
         material = ocean_material.own_material(ob)
         if material is not None:
             ocean_material.apply(ob, scene, planned.material)
+            foam.apply(material, planned.ocean)
             if bump.is_shown(material) != (planned.ocean.ripples.kind != "off"):
-                _apply_ripples(ob, scene, planned.ocean)
+                _apply_surface_nodes(ob, scene, planned.ocean)
     except OceanError:
         return
 
@@ -224,14 +227,21 @@ def _rebuild_and_move(ob, scene):
 
 def _ensure_attributes(mesh, planned):
     """Attributes come and go here, with the plan."""
-    bump.ensure_attributes(mesh, planned.ocean)
-    mesh_arrays.ensure_gust_attribute(mesh, planned.ocean.ripples.gusts)
-    mesh_arrays.ensure_vector_attributes(mesh, planned.plan.attributes, EFFECT_ATTRIBUTES)
+    ocean = planned.ocean
+    bump.ensure_attributes(mesh, ocean)
+    mesh_arrays.ensure_gust_attribute(mesh, ocean.ripples.gusts)
+    mesh_arrays.ensure_rest_positions(mesh, _looks_up_textures(ocean))
+    mesh_arrays.ensure_attributes(mesh, planned.plan.attributes, EFFECT_ATTRIBUTES)
 
 
 def metres_to_units(scene) -> float:
     """How many of the scene's units a metre is; an ocean's mesh is in metres and its object scaled by this."""
     return 1.0 / scene.unit_settings.scale_length
+
+
+def _looks_up_textures(ocean):
+    """Whether the material needs undisturbed positions and the size of a pixel."""
+    return ocean.ripples.kind != "off" or ocean.foam is not None
 
 
 def _check_transform(ob, scene):
@@ -259,6 +269,7 @@ def _write_surface(ob, surface, placement, time, with_velocity=True, stages=None
     if mesh_arrays.static_fingerprint(mesh) != ocean.fingerprint:
         mesh_arrays.write_slope_variance(mesh, surface.slope_variance())
         bump.write_static(mesh, surface)
+        foam.write_static(mesh, surface)
         mesh_arrays.set_static_fingerprint(mesh, ocean.fingerprint)
         stages.done("setup")
     attributes = mesh.attributes
@@ -270,6 +281,9 @@ def _write_surface(ob, surface, placement, time, with_velocity=True, stages=None
             more[TANGENTS] = _buffer(surface.vertex_count, TANGENTS.columns)
         if VELOCITY_ATTRIBUTE in attributes and with_velocity:
             more[VELOCITY] = _buffer(surface.vertex_count, VELOCITY.columns, number=1)
+        if FOAM_ATTRIBUTE in attributes and surface.whitecaps is not None:
+            block = surface.whitecaps.block
+            more[block] = _buffer(surface.vertex_count, block.columns, number=2)
         surface.positions(time, placement, positions, more)
         stages.done("products")
         mesh_arrays.write_positions(mesh, positions.array)
@@ -282,12 +296,21 @@ def _write_surface(ob, surface, placement, time, with_velocity=True, stages=None
             stages.done("normals")
             mesh_arrays.write_vectors(mesh, NORMAL_ATTRIBUTE, normals)
             stages.done("write")
-    bump.write_placement(mesh, surface, placement)
+        if FOAM_ATTRIBUTE in attributes:
+            foam.write(mesh, surface, more)
+    anchors = placement.anchors
+    if mesh_arrays.has_rest_positions(mesh) and not mesh_arrays.rest_positions_are_for(mesh, anchors):
+        mesh_arrays.write_rest_positions(mesh, anchors, surface.undisturbed(anchors))
     stages.done("write")
 
 
-def _apply_ripples(ob, scene, ocean):
-    """Bring images and nodes of the ripples in step with the settings, once there is a material."""
+def _apply_surface_nodes(ob, scene, ocean):
+    """Bring images and nodes of ripples and foam in step with the settings, once there is a material."""
     material = ocean_material.own_material(ob)
     if material is not None:
-        bump.apply(ob, scene, material, _surface(ocean), scene_sea_time(ob, scene))
+        foam.apply(material, ocean)
+        if _looks_up_textures(ocean):
+            bump.update_pixel(ob, scene)
+        else:
+            bump.forget_pixel(ob)
+        bump.apply(ob, material, _surface(ocean), scene_sea_time(ob, scene))

@@ -24,7 +24,7 @@ class PlannedOcean:
         waves = _waves(settings.sea, settings.grid.shortest_wavelength)
         self.plan: Plan = decide(scene_facts(ob, scene, depsgraph, final), settings, waves)
         used = effective(settings, self.plan)
-        self.ocean = Ocean(used.sea, used.grid, used.framing, used.ripples)
+        self.ocean = Ocean(used.sea, used.grid, used.framing, used.ripples, used.foam)
         self.material = used.material
 
 
@@ -37,6 +37,7 @@ def read_settings(ob, scene) -> Settings:
         asked.framing,
         properties.read_material(ob.ocean_lod),
         asked.ripples,
+        asked.foam,
         properties.read_effects(ob.ocean_lod),
     )
 

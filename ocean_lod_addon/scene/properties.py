@@ -8,6 +8,7 @@ import bpy
 
 from ..core.beaufort import BEAUFORT_SCALE, beaufort_force, typical_wind
 from ..core.effects import Effects
+from ..core.foam_settings import Foam
 from ..core.framing import Framing
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
@@ -102,6 +103,10 @@ RippleProperties = rna.property_group(
     "OCEAN_LOD_RippleProperties",
     rna.annotations(Ripples, _surface_changed, not_animatable=parameters_of(Ripples)),
 )
+FoamProperties = rna.property_group(
+    "OCEAN_LOD_FoamProperties",
+    rna.annotations(Foam, _effect_changed, not_animatable=("memory_steps",)),
+)
 EffectsProperties = rna.property_group(
     "OCEAN_LOD_EffectsProperties",
     rna.annotations(Effects, _effect_changed, not_animatable=parameters_of(Effects)),
@@ -147,6 +152,7 @@ OceanProperties = rna.property_group(
         "grid": bpy.props.PointerProperty(type=GridProperties),
         "framing": bpy.props.PointerProperty(type=FramingProperties),
         "ripples": bpy.props.PointerProperty(type=RippleProperties),
+        "foam": bpy.props.PointerProperty(type=FoamProperties),
         "effects": bpy.props.PointerProperty(type=EffectsProperties),
         "quality": bpy.props.PointerProperty(type=QualityProperties),
         "time": bpy.props.PointerProperty(type=TimeProperties),
@@ -160,6 +166,7 @@ _CLASSES = (
     GridProperties,
     FramingProperties,
     RippleProperties,
+    FoamProperties,
     EffectsProperties,
     TimeProperties,
     MaterialProperties,
@@ -193,12 +200,18 @@ def read_ocean(properties, frames_per_second: float) -> Ocean:
         grid=rna.read(Grid, properties.grid),
         framing=rna.read(Framing, properties.framing),
         ripples=read_ripples(properties),
+        foam=read_foam(properties),
     )
 
 
 def read_ripples(properties) -> Ripples:
     """The ripple settings."""
     return rna.read(Ripples, properties.ripples)
+
+
+def read_foam(properties) -> Foam:
+    """The foam settings."""
+    return rna.read(Foam, properties.foam)
 
 
 def read_effects(properties) -> Effects:

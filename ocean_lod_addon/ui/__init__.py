@@ -3,7 +3,18 @@
 
 import bpy
 
-from . import effects, framing, menus, operators, panels, preset_operators, quality, readback_cache, ripples
+from . import (
+    effects,
+    foam,
+    framing,
+    menus,
+    operators,
+    panels,
+    preset_operators,
+    quality,
+    readback_cache,
+    ripples,
+)
 
 _CLASSES = (
     *operators.CLASSES,
@@ -13,6 +24,7 @@ _CLASSES = (
     *framing.CLASSES,
     *ripples.CLASSES,
     *quality.CLASSES,
+    *foam.CLASSES,
     *effects.CLASSES,
 )
 

@@ -52,7 +52,7 @@ def test_a_file_s_plan_is_the_one_that_its_ocean_follows(capsys, tmp_path):
     assert main(["render", *arguments]) == EXIT_OK
     ocean = next(ob for ob in bpy.data.objects if ob.ocean_lod.is_ocean)
     bpy.context.scene.render.use_motion_blur = True
-    ocean.ocean_lod.effects.analytic_normals = "off"
+    ocean.ocean_lod.effects.analytic_normals = ocean.ocean_lod.effects.foam = "off"
     bpy.ops.wm.save_as_mainfile(filepath=str(file))
     capsys.readouterr()
     plan = explained(capsys, "--blend", str(file))

@@ -11,6 +11,7 @@ import pytest
 from ocean_lod_addon.core.column_blocks import POSITION, TANGENTS, VELOCITY
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.effects import AUTO, OFF, ON, Effects
+from ocean_lod_addon.core.foam_settings import Foam
 from ocean_lod_addon.core.framing import Framing
 from ocean_lod_addon.core.gerstner import surface_points
 from ocean_lod_addon.core.lod import Grid
@@ -24,7 +25,7 @@ from ocean_lod_addon.core.waves import WaveSet
 
 NEAR = ShotNeeds(nearest=5.0, pixel_angle=1e-3, height=3.0)
 FROM_SPACE = ShotNeeds(nearest=400e3, pixel_angle=1e-3, height=400e3)
-SETTINGS = Settings(Sea(wave_count=32), Grid(), Framing(), MaterialSettings(), Ripples(), Effects())
+SETTINGS = Settings(Sea(wave_count=32), Grid(), Framing(), MaterialSettings(), Ripples(), Foam(), Effects())
 CALM = dataclasses.replace(SETTINGS, sea=Sea(systems=(WaveSystem(wind_speed=0.0),)))
 
 
@@ -56,6 +57,7 @@ def test_nothing_is_computed_that_only_space_can_not_see():
     plan = plan_of(wide, camera=FROM_SPACE)
     assert not plan.on("horizontal_displacement")
     assert not plan.on("ripples")
+    assert not plan.on("foam")
     assert plan.on("curved_earth")
     assert "pixels" in why(plan, "horizontal_displacement")
 
@@ -135,6 +137,24 @@ def test_gusts_blow_where_they_are_asked_for_and_there_is_wind():
     assert not plan_of(calm).on("gusts")
 
 
+@pytest.mark.parametrize(("wind", "on"), [(3.9, False), (6.0, True)])
+def test_foam_needs_waves_that_break(wind, on):
+    sea = Sea(systems=(WaveSystem(wind_speed=wind),), wave_count=32)
+    for word in (AUTO, ON):
+        assert plan_of(dataclasses.replace(changed(foam=word), sea=sea)).on("foam") == on
+
+
+def test_foam_that_changes_no_pixel_is_off():
+    """A whitecap of 2.6 m, half a wave a sixteenth as long as the peak's 83 m at 10 m/s, of reflectance 0.55:
+
+    1 of 255 steps where it covers 1 / (0.55 x 255) of a pixel, 31 m wide.
+    """
+    edge = 2.6 * np.sqrt(0.55 * 255.0) / 1e-3
+    assert plan_of(camera=ShotNeeds(0.8 * edge, 1e-3, 3.0)).on("foam")
+    assert not plan_of(camera=ShotNeeds(1.2 * edge, 1e-3, 3.0)).on("foam")
+    assert "255 steps" in why(plan_of(), "foam")
+
+
 def test_what_can_not_be_is_not_turned_on():
     """No skew in Cycles' closure, no ripples of kind off."""
     off = dataclasses.replace(
@@ -152,7 +172,9 @@ def test_every_pair_of_choices_gives_a_plan_whose_parts_agree():
     ):
         settings = changed(**{first: a, second: b})
         plan = plan_of(settings, engine="EEVEE")
-        assert len(plan.attributes) == len(plan.blocks) - 1
+        foam = plan.on("foam")
+        assert len(plan.attributes) == len(plan.blocks) - 1 + 2 * foam
+        assert plan.columns == sum(block.columns for block in plan.blocks) + 16 * foam
         used = effective(settings, plan)
         assert (used.sea.choppiness > 0.0) == plan.on("horizontal_displacement")
         assert used.sea.finite_depth == plan.on("finite_depth")
@@ -161,6 +183,7 @@ def test_every_pair_of_choices_gives_a_plan_whose_parts_agree():
         assert used.material.skewed_slopes == plan.on("skewed_slopes")
         assert (used.ripples.kind != "off") == plan.on("ripples")
         assert used.ripples.gusts == plan.on("gusts")
+        assert (used.foam is not None) == foam
 
 
 def test_the_plan_depends_on_its_arguments_alone():

@@ -13,7 +13,8 @@ from ocean_lod_addon.core.gerstner import surface_points
 from ocean_lod_addon.scene import mesh as mesh_arrays
 from ocean_lod_addon.scene import ocean_object
 
-EFFECT_ATTRIBUTES = {"custom_normal", "velocity"}
+EFFECT_ATTRIBUTES = {"custom_normal", "velocity", "ocean_foam", "ocean_foam_whitecaps"}
+FOAM = {"ocean_foam", "ocean_foam_whitecaps"}
 
 
 @pytest.fixture
@@ -50,9 +51,9 @@ def vectors(ocean, name):
 @pytest.mark.parametrize(
     ("engine", "blur", "expected"),
     [
-        ("CYCLES", False, {"custom_normal"}),
-        ("CYCLES", True, {"custom_normal", "velocity"}),
-        ("EEVEE", True, {"custom_normal"}),
+        ("CYCLES", False, {"custom_normal"} | FOAM),
+        ("CYCLES", True, {"custom_normal", "velocity"} | FOAM),
+        ("EEVEE", True, {"custom_normal"} | FOAM),
     ],
 )
 def test_a_render_leaves_exactly_the_attributes_that_its_plan_names(shot, engine, blur, expected):
@@ -68,9 +69,11 @@ def test_a_render_leaves_exactly_the_attributes_that_its_plan_names(shot, engine
 def test_settings_take_attributes_away_and_bring_them_back(shot):
     ocean, _ = shot
     effects = ocean.ocean_lod.effects
-    effects.velocity, effects.analytic_normals = "on", "off"
+    effects.velocity, effects.analytic_normals, effects.foam = "on", "off", "off"
     assert effect_attributes(ocean) == {"velocity"}
-    effects.velocity = "off"
+    effects.velocity, effects.foam = "off", "auto"
+    assert effect_attributes(ocean) == FOAM
+    effects.foam = "off"
     assert effect_attributes(ocean) == set()
     effects.analytic_normals = "auto"
     assert effect_attributes(ocean) == {"custom_normal"}
@@ -108,3 +111,43 @@ def test_off_moves_nothing_sideways(shot):
     positions = mesh_arrays.read_positions(ocean.data)[:, :2]
     assert np.array_equal(positions, np.round(positions / 0.25) * 0.25)
     assert ocean.ocean_lod.sea.choppiness == 1.0, "the artist's setting stays"
+
+
+def foam_of(ocean):
+    values = np.empty(len(ocean.data.vertices), np.float32)
+    ocean.data.attributes["ocean_foam"].data.foreach_get("value", values)
+    return values
+
+
+def test_frame_100_alone_has_the_foam_of_frame_100_after_all_others(shot):
+    ocean, scene = shot
+    ocean.ocean_lod.sea.systems[0].wind_speed = 14.0
+    scene.frame_set(100)
+    alone = foam_of(ocean)
+    for frame in range(1, 101):
+        scene.frame_set(frame)
+    assert alone.max() > 0.5
+    assert np.array_equal(foam_of(ocean), alone)
+
+
+def test_foam_comes_and_goes_without_breaking_an_artist_s_material(shot):
+    """A shader mixed in behind the water stays where it is, whatever foam does."""
+    ocean, _ = shot
+    effects, tree = ocean.ocean_lod.effects, ocean.data.materials[0].node_tree
+    output = tree.nodes["Output Cycles"]
+    mix = tree.nodes.new("ShaderNodeMixShader")
+    before = output.inputs["Surface"].links[0].from_node
+    tree.links.new(output.inputs["Surface"].links[0].from_socket, mix.inputs[1])
+    tree.links.new(mix.outputs[0], output.inputs["Surface"])
+    assert before.name == "Ocean LOD Foam"
+    tree.nodes["Ocean LOD Foam"].inputs["Grain"].default_value = 7.0
+    ocean.ocean_lod.foam.reflectance = 0.4
+    assert tree.nodes["Ocean LOD Foam"].inputs["Grain"].default_value == 7.0
+    assert tree.nodes["Ocean LOD Foam"].inputs["Foam Color"].default_value[0] == pytest.approx(0.4)
+    for word, behind in (("off", "Ocean LOD Water"), ("on", "Ocean LOD Foam"), ("off", "Ocean LOD Water")):
+        effects.foam = word
+        assert output.inputs["Surface"].links[0].from_node == mix
+        assert mix.inputs[1].links[0].from_node.name == behind
+        assert ("Ocean LOD Foam" in tree.nodes) == (word == "on")
+        assert ("Ocean LOD Foam" in bpy.data.node_groups) == (word == "on")
+

@@ -9,6 +9,7 @@ from ...core.column_blocks import TANGENTS
 from ...core.cost.planned import planned_work
 from ...core.cost.work import Work
 from ...core.effects import Effects
+from ...core.foam_settings import Foam
 from ...core.framing import Framing
 from ...core.lod import Grid
 from ...core.material_settings import MaterialSettings
@@ -25,7 +26,7 @@ IN_VIEWPORT = Facts(engine="CYCLES", final=False)
 
 def settings_of(sea: Sea, grid: Grid, ripples: Ripples) -> Settings:
     """An artist's settings with everything else left to itself."""
-    return Settings(sea, grid, Framing(), MaterialSettings(), ripples, Effects())
+    return Settings(sea, grid, Framing(), MaterialSettings(), ripples, Foam(), Effects())
 
 
 def work(settings: Settings) -> Work:
