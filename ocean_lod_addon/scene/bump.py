@@ -11,7 +11,7 @@ from ..nodes.ripple_parts import PIXEL_PROPERTY
 from ..nodes.ripples_material import RIPPLES_NODE_NAME, hide_ripples, set_ripple_values, show_ripples
 from . import mesh as mesh_arrays
 from . import placing
-from .ripple_images import ensure_images, find_images, remove_images, write_images
+from .ripple_images import ensure_images, find_images, fit, remove_images, write_images
 
 _DEFAULT_PIXEL_ANGLE = 36.0 / 35.0 / 1920.0
 """rad; of a 35 mm lens in a picture 1920 pixels wide, for a scene without a camera."""
@@ -56,7 +56,7 @@ def update(ob, surface: Surface, time: float) -> None:
     for material in ob.data.materials:
         if material is not None and MATERIAL_KEY in material and RIPPLES_NODE_NAME in material.node_tree.nodes:
             images = find_images(material[MATERIAL_KEY], len(bump.layout.tiles))
-            if None not in images:
+            if fit(images, bump.layout):
                 write_images(images, bump, time)
                 set_ripple_values(material, bump.tensors, bump.wave_height)
 

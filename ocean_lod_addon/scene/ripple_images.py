@@ -21,6 +21,14 @@ def find_images(owner: str, count: int) -> list:
     return [found.get(_key(owner, number)) for number in range(count)]
 
 
+def fit(images: list, layout: BumpLayout) -> bool:
+    """Whether there is an image for each tile, of its size: oceans that share a material have those of one."""
+    return all(
+        image is not None and image.size[0] == tile.texels
+        for image, tile in zip(images, layout.tiles, strict=True)
+    )
+
+
 def _key(owner, number):
     return f"{owner} {number}"
 

@@ -27,7 +27,7 @@ variances = st.sampled_from([0.0, 1.4e-6, LARGEST_VARIANCE]) | st.floats(-30.0, 
 )
 elevations = (
     st.sampled_from([0.0, math.pi / 2])
-    | st.floats(0.0, math.pi / 2)
+    | st.floats(0.0, math.pi / 2, allow_subnormal=False)  # those have no relative precision
     | st.floats(-12.0, 0.0).map(lambda exponent: 10.0**exponent)
 )
 
@@ -69,10 +69,14 @@ def test_reflected_sun_is_finite_in_float32(view, light, slopes):
 @any_settings
 @given(directions, directions, slopes())
 def test_light_and_view_can_be_exchanged(view, light, slopes):
-    """Truth: Helmholtz: the BRDF is the same both ways; some ten operations, exponents up to 700 times one u."""
+    """Truth: Helmholtz: the BRDF is the same both ways; some ten operations, exponents up to 700 times one u.
+
+    BRDF cos theta below the smallest normal number has lost its digits before it is divided by the cosine.
+    """
     here = ross.brdf(OPS, view, light, slopes, WATER_REFRACTIVE_INDEX)
     there = ross.brdf(OPS, light, view, slopes, WATER_REFRACTIVE_INDEX)
-    assert abs(here - there) <= 2000 * FLOAT64_ROUNDING * max(here, there)
+    lost = 4.0 * np.finfo(float).tiny / max(min(view[2], light[2]), np.finfo(float).tiny)
+    assert abs(here - there) <= 2000 * FLOAT64_ROUNDING * max(here, there) + lost
 
 
 @any_settings
