@@ -53,6 +53,7 @@ class Patch:
         self.mesh.attributes.new(mesh_arrays.SLOPE_VARIANCE, "FLOAT_VECTOR", "POINT")
         self.mesh.attributes.new("custom_normal", "FLOAT_VECTOR", "POINT")
         mesh_arrays.ensure_ripple_attributes(self.mesh, self.bump.layout.handed_over)
+        mesh_arrays.ensure_rest_positions(self.mesh, wanted=True)
         mesh_arrays.write_rest_positions(self.mesh, np.zeros((1, 2)), np.column_stack([self.x, self.y]))
         self.ob = bpy.data.objects.new("Water", self.mesh)
         self._add_material()
