@@ -16,6 +16,7 @@ from ocean_lod_addon.core.cost.quality import QUALITIES, apply, ladder
 from ocean_lod_addon.core.cost.work import Work, work_of
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.effects import Effects
+from ocean_lod_addon.core.foam_settings import Foam
 from ocean_lod_addon.core.framing import Framing
 from ocean_lod_addon.core.kernel import FrameKernel
 from ocean_lod_addon.core.lod import Grid
@@ -29,7 +30,7 @@ NOTHING = Work(*[0.0] * len(dataclasses.fields(Work)))
 
 
 def settings(**grid):
-    return Settings(Sea(), Grid(**grid), Framing(), MaterialSettings(), Ripples(), Effects())
+    return Settings(Sea(), Grid(**grid), Framing(), MaterialSettings(), Ripples(), Foam(), Effects())
 
 
 # ------------------------------------------------------------------------------------------------- work
