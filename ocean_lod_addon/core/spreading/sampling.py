@@ -8,6 +8,9 @@ from .table import Spreading
 _LARGEST_STEPS = 60
 _CONVERGED = 1e-15
 
+_SMALLEST_DENSITY = np.finfo(np.float64).tiny
+"""1/rad; a law that is flatter, as far behind the wind as subnormal numbers, would make a step of infinity."""
+
 
 def mean_cos2(spreading: Spreading, omega, cutoff: float) -> np.ndarray:
     """<cos^2 theta> at omega in rad/s over the directions with |theta| <= cutoff in rad."""
@@ -35,7 +38,7 @@ def direction_at_share(spreading: Spreading, omega, share, cutoff: float = np.pi
         excess = spreading.cumulative(omega, theta) - target
         low, high = np.where(excess < 0.0, theta, low), np.where(excess < 0.0, high, theta)
         density = spreading.density(omega, theta)
-        steep = density > 0.0
+        steep = density > _SMALLEST_DENSITY
         newton = theta - np.where(steep, excess, 0.0) / np.where(steep, density, 1.0)
         inside = steep & (newton > low) & (newton < high)
         following = np.where(running, np.where(inside, newton, 0.5 * (low + high)), theta)
