@@ -12,6 +12,8 @@ half the multiplications for two additions. Rows of waves that fade within the l
 symmetry, and of the undisturbed plane are split into a part of either kind, and stand in both U and V.
 """
 
+import weakref
+
 import numpy as np
 
 from .column_blocks import ColumnBlock, Still
@@ -105,10 +107,11 @@ class Level:
 
 
 class _Right:
-    """The right factor of one block of columns on one level."""
+    """The right factor of one block of columns on one level, which owns it: a weak reference back lets a level that
+    is no longer used go at once, not with the next search for cycles."""
 
     def __init__(self, level, block):
-        self._level, self._block = level, block
+        self._level, self._block = weakref.proxy(level), block
         self._windows = Windows(level, axis=1)
         self._weights = block.weights(level.waves)[level.present].astype(np.complex64)  # (waves, columns)
 
@@ -204,10 +207,13 @@ def _signs(weights):
 
 
 class Windows:
-    """What the windows of a factor were last filled for: along one axis, the waves grouped by their centre."""
+    """What the windows of a factor were last filled for: along one axis, the waves grouped by their centre.
+
+    Of the level, which owns them, they keep a weak reference, as `_Right` does.
+    """
 
     def __init__(self, level: Level, axis: int):
-        self._level, self._axis = level, axis
+        self._level, self._axis = weakref.proxy(level), axis
         self._groups = _groups(level.window_levels, level.fading)
         self._placed = None
 

@@ -68,6 +68,7 @@ class OBJECT_OT_ocean_lod_measure_machine(_QualityOperator, bpy.types.Operator):
 
     bl_idname = "object.ocean_lod_measure_machine"
     bl_label = "Measure This Machine"
+    bl_options = {"REGISTER"}
 
     def execute(self, context):
         context.window_manager.progress_begin(0, 1)
