@@ -10,6 +10,9 @@ times. With U the part of the sum that the former rows make and V that of the la
 
 half the multiplications for two additions. Rows of waves that fade within the level, whose windows have no such
 symmetry, and of the undisturbed plane are split into a part of either kind, and stand in both U and V.
+
+A column whose weights are complex, such as that of an instant of the past, has no such s. Its block gets the plain
+factors: all of its rows would stand in both U and V, and nothing would be saved.
 """
 
 import weakref
@@ -26,8 +29,9 @@ from .windows import FADE_START, window, window_levels, window_reach
 class Level:
     """One level's left factor, and its right factors, one for each block of columns that was asked for.
 
-    `lefts` are L, or with `mirrored` those of U and V. Their last columns are those of the undisturbed plane, last
-    so that small terms are summed first: x, 1, and with a curved Earth also x^2, which takes a second column (of
+    `plain_left` is L, `mirrored_lefts` those of U and V; a level that is not `mirrored` has none of these, one
+    that is has an L only once a block asks for it. Their last columns are those of the undisturbed plane, last so
+    that small terms are summed first: x, 1, and with a curved Earth also x^2, which takes a second column (of
     zeros) to keep L an array of complex pairs.
     """
 
@@ -50,44 +54,60 @@ class Level:
         self._mirrored = mirrored
         self._windows = Windows(self, axis=0)
         self._blocks: dict[ColumnBlock, _Right] = {}
-        self._new_right = _MirroredRight if mirrored else _PlainRight
 
         k, theta = waves.wavenumber[self.present], waves.direction[self.present]
         self._wave_x = np.exp(1j * np.outer(lines, k * np.cos(theta))).astype(np.complex64)  # (lines, waves)
         self.wave_y = np.exp(1j * np.outer(k * np.sin(theta), lines)).astype(np.complex64)  # (waves, lines)
         self._static_left = np.empty_like(self._wave_x)
         self._phased = np.empty_like(self._wave_x) if mirrored else None
-        width = self.rows_of(self.wave_count) + self.base_rows
-        self.lefts = tuple(np.zeros((len(lines), width), np.float32) for _ in range(2 if mirrored else 1))
-        for left in self.lefts:
-            left[:, -2], left[:, -1] = lines, 1.0
+        self.plain_left = None if mirrored else self._new_left(2 * self.wave_count)
+        width = self.mirrored_rows(self.wave_count)
+        self.mirrored_lefts = tuple(self._new_left(width) for _ in range(2 if mirrored else 0))
 
-    def rows_of(self, wave_count: int) -> int:
-        """Columns of each of `lefts` that the `wave_count` longest waves take."""
-        dropped = self.wave_count - wave_count
-        return wave_count + max((self.fading if self._mirrored else self.wave_count) - dropped, 0)
+    def _new_left(self, wave_columns):
+        left = np.zeros((len(self.lines), wave_columns + self.base_rows), np.float32)
+        left[:, -2], left[:, -1] = self.lines, 1.0
+        return left
+
+    def mirrored_rows(self, wave_count: int) -> int:
+        """Columns of each of `mirrored_lefts` that the `wave_count` longest waves take."""
+        return wave_count + max(self.fading - (self.wave_count - wave_count), 0)
+
+    @property
+    def _lefts(self):
+        return (*self.mirrored_lefts, *(() if self.plain_left is None else (self.plain_left,)))
+
+    def _add(self, block):
+        """Make the right factor of a block, and L if it is the first that needs it."""
+        mirrored = self._mirrored and _signs(block.weights(self.waves)) is not None
+        self._blocks[block] = (_MirroredRight if mirrored else _PlainRight)(self, block)
+        if not mirrored and self.plain_left is None:
+            self.plain_left = self._new_left(2 * self.wave_count)
 
     def fill(self, phasor: np.ndarray, anchors: np.ndarray, blocks, rows: slice) -> None:
         """Refill rows of L with the phasors of all waves, shortest first, and R where the anchors have moved."""
         for block in blocks:
             if block not in self._blocks:
-                self._blocks[block] = self._new_right(self, block)
+                self._add(block)
             self._blocks[block].place(anchors)
         if self.curved:
-            for left in self.lefts:
+            for left in self._lefts:
                 left[:, -4] = (self.lines + (anchors[self.number] - anchors[0])[0]) ** 2
         if rows.start == rows.stop:
             return
         self._windows.place(anchors, self._refill)
         phasor = phasor[self.first_wave :]
-        if self._phased is None:
-            waves_of_left = self.lefts[0].view(np.complex64)[rows, : self.wave_count]
+        if self.plain_left is not None:
+            waves_of_left = self.plain_left.view(np.complex64)[rows, : self.wave_count]
             np.multiply(self._static_left[rows], phasor, out=waves_of_left)
-            return
+        if self._mirrored:
+            self._fill_mirrored(phasor, rows)
+
+    def _fill_mirrored(self, phasor, rows):
         phased = np.multiply(self._static_left[rows], phasor, out=self._phased[rows])
         both, whole = slice(0, 2 * self.fading), slice(2 * self.fading, -self.base_rows)
         parts = phased[:, self.fading :].real, phased[:, self.fading :].imag
-        for left, part in zip(self.lefts, parts, strict=True):
+        for left, part in zip(self.mirrored_lefts, parts, strict=True):
             left[rows, both] = phased.view(np.float32)[:, both]
             left[rows, whole] = part
 
@@ -107,8 +127,10 @@ class Level:
 
 
 class _Right:
-    """The right factor of one block of columns on one level, which owns it: a weak reference back lets a level that
-    is no longer used go at once, not with the next search for cycles."""
+    """The right factor of one block of columns on one level, which owns it.
+
+    A weak reference back lets a level that is no longer used go at once, not with the next search for cycles.
+    """
 
     def __init__(self, level, block):
         self._level, self._block = weakref.proxy(level), block
@@ -138,6 +160,8 @@ class _Right:
 class _PlainRight(_Right):
     """R as it stands in core.kernel."""
 
+    mirrored = False
+
     def __init__(self, level, block):
         super().__init__(level, block)
         rows = 2 * level.wave_count + level.base_rows
@@ -155,6 +179,8 @@ class _PlainRight(_Right):
 
 class _MirroredRight(_Right):
     """Those of U and V, for each strip of the upper half by its first line; `base` is for still water."""
+
+    mirrored = True
 
     def __init__(self, level, block):
         super().__init__(level, block)
@@ -199,10 +225,10 @@ class _MirroredRight(_Right):
 
 
 def _signs(weights):
-    """1 for each column whose weights are real, -1 for imaginary ones."""
+    """1 for each column whose weights are real, -1 for imaginary ones; None if a column has both kinds."""
     real, imaginary = ~weights.imag.any(axis=0), ~weights.real.any(axis=0)
     if not (real | imaginary).all():
-        raise ValueError("a block's column has weights that are neither all real nor all imaginary")
+        return None
     return tuple(np.where(real, 1, -1).tolist())
 
 

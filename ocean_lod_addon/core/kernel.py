@@ -83,7 +83,8 @@ class FrameKernel:
         ]
         reach = window_reach(grid, waves.wavelength[self._order])
         self._wave_counts = len(waves) - _first_waves(grid, self._table, reach)
-        self._units = (_MirroredTiles if mirrored else _PlainTiles)(grid)
+        self._plain_tiles = _PlainTiles(grid)
+        self._mirrored_tiles = _MirroredTiles(grid) if mirrored else None
         self._follows = _follows(self._table, np.arange(len(self._tiles)))
         self._last_products = {}
 
@@ -161,9 +162,10 @@ class FrameKernel:
             return products
         most = len(self._waves) if wave_limit is None else wave_limit
         flags = np.ones(len(self._tiles), bool) if visible is None else visible
-        kinds, counts = self._units.needs(flags, np.minimum(self._wave_counts, most))
-        runs = _runs(self._units.follows, kinds, counts)
-        products = [self._units.product(self._levels, out, block, *run) for run in runs]
+        units = self._mirrored_tiles if self._levels[0].right(block).mirrored else self._plain_tiles
+        kinds, counts = units.needs(flags, np.minimum(self._wave_counts, most))
+        runs = _runs(units.follows, kinds, counts)
+        products = [units.product(self._levels, out, block, *run) for run in runs]
         self._last_products[block] = (out, view, products)
         return products
 
@@ -183,8 +185,9 @@ class FrameKernel:
     def _still_product(self, out, block, tile, end):
         level = self._levels[tile.level]
         columns = slice(block.columns * tile.column_start, block.columns * tile.column_stop)
+        left = level.plain_left if level.plain_left is not None else level.mirrored_lefts[0]
         return Product(
-            level.lefts[-1][tile.row_start : end.row_stop, -level.base_rows :],
+            left[tile.row_start : end.row_stop, -level.base_rows :],
             level.right(block).base[:, columns],
             _rows_of(out, block, tile, end),
         )
@@ -205,10 +208,10 @@ class _PlainTiles:
         """The product of the units first..last with the `wave_count` longest waves."""
         tile, end = self._tiles[first], self._tiles[last]
         level = levels[tile.level]
-        inner = slice(level.rows_of(level.wave_count) - level.rows_of(wave_count), None)
+        inner = slice(2 * (level.wave_count - wave_count), None)
         columns = slice(block.columns * tile.column_start, block.columns * tile.column_stop)
         return Product(
-            level.lefts[0][tile.row_start : end.row_stop, inner],
+            level.plain_left[tile.row_start : end.row_stop, inner],
             level.right(block).matrix[inner, columns],
             _rows_of(out, block, tile, end),
         )
@@ -248,12 +251,12 @@ class _MirroredTiles:
         image, image_end = (self._tiles[self._image[number]] for number in (first, last))
         level = levels[own.level]
         right = level.right(block)
-        inner = slice(level.rows_of(level.wave_count) - level.rows_of(wave_count), None)
+        inner = slice(level.mirrored_rows(level.wave_count) - level.mirrored_rows(wave_count), None)
         mirrored = None
         if kind & _IMAGE:
             mirrored = _rows_of(out, block, image, image_end).reshape(-1, image.columns, block.columns)[:, ::-1]
         return MirroredProduct(
-            tuple(left[own.row_start : own_end.row_stop, inner] for left in level.lefts),
+            tuple(left[own.row_start : own_end.row_stop, inner] for left in level.mirrored_lefts),
             tuple(matrix[inner] for matrix in right.strips[own.column_start]),
             right.signs,
             _rows_of(out, block, own, own_end) if kind & _OWN else None,
