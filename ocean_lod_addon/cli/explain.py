@@ -13,7 +13,7 @@ from ..core.lod import Grid
 from ..core.plan import Facts, Plan, Settings, decide
 from ..core.ripple_settings import Ripples
 from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, frame_needs
-from .arguments import real_number, resolution
+from .arguments import real_number, resolution, whole_number
 from .setting_options import add_setting_options, given_settings
 
 NAME = "explain"
@@ -36,8 +36,12 @@ def add_arguments(parser) -> None:
         metavar="S",
         help="seconds that the shutter is open, with motion blur (%(default)g: none)",
     )
+    parser.add_argument(
+        "--samples", type=whole_number(1, 1 << 20), default=64, metavar="N", help="samples per pixel (%(default)d)"
+    )
     parser.add_argument("--json", action="store_true", help="print JSON")
     add_setting_options(parser.add_argument_group("effects"), Effects)
+    add_setting_options(parser.add_argument_group("foam"), Foam)
 
 
 def run(options) -> None:
@@ -59,10 +63,10 @@ def preset_plan(options) -> Plan:
         Framing(),
         preset.material,
         Ripples(),
-        Foam(),
+        Foam(**given_settings(options, Foam)),
         Effects(**given_settings(options, Effects)),
     )
-    facts = Facts(engine=options.engine, shutter=options.shutter, camera=needs)
+    facts = Facts(engine=options.engine, shutter=options.shutter, samples=options.samples, camera=needs)
     return decide(facts, settings, discretise(settings.sea, settings.grid.shortest_wavelength))
 
 
@@ -81,5 +85,7 @@ def print_plan(plan: Plan) -> None:
     for decision in plan.decisions:
         print(f"{decision.label:{width}}  {'on ' if decision.on else 'off'}  {decision.why}")
     print()
-    print(f"Moved: {plan.tiles if plan.tiles != 'all' else 'all tiles'}; {plan.columns} columns for each vertex")
+    print(f"Tiles that move: {plan.tiles}. {plan.why_tiles}")
+    print(f"Waves: {plan.waves}; {plan.columns} numbers for each vertex of these tiles")
     print(f"Attributes that come and go: {', '.join(plan.attributes) or 'none'}")
+    print(f"Images: {plan.images}; group nodes: {', '.join(plan.nodes)}")

@@ -84,6 +84,21 @@ def visible_tiles(
     return seen
 
 
+def looks_down(view: CameraView, margin: float, highest: float) -> bool:
+    """Whether a camera may see water: a quick test for the whole sea, before that of its tiles.
+
+    From above the highest crest (m) only rays that sink meet the sea, and if any ray of a perspective frame sinks,
+    one through a corner does. `margin` in rad widens the frame. Other cameras may always see water.
+    """
+    if view.kind != "PERSP" or view.position[2] <= highest:
+        return True
+    outwards = np.array([-1.0, 1.0, -1.0, 1.0])
+    angles = np.minimum(outwards * np.arctan(view.extent) + margin, _WIDEST_HALF_ANGLE)
+    tangents = outwards * np.tan(angles)
+    corners = [(x, y, 1.0) @ view.axes for x in tangents[:2] for y in tangents[2:]]
+    return any(corner[2] < 0.0 for corner in corners)
+
+
 def _boxes(grid, anchors):
     """Undisturbed low and high corners, (tiles, 2) m each, of all tiles and the cells that join them to others."""
     table = tile_table(grid.cells, grid.levels)

@@ -31,6 +31,11 @@ class Placement:
         return self.visible is None or bool(self.visible.any())
 
 
+def highest_wave(waves: WaveSet) -> float:
+    """Bound on the heights of crests and depths of troughs, m."""
+    return _HIGHEST_WAVE * 4.0 * float(np.sqrt(0.5 * np.sum(waves.amplitude**2)))
+
+
 def place(grid: Grid, framing: Framing, waves: WaveSet, view: CameraView | None, final: bool) -> Placement:
     """The placement of a plane for a camera (None if the scene has none); a function of its arguments alone.
 
@@ -44,7 +49,7 @@ def place(grid: Grid, framing: Framing, waves: WaveSet, view: CameraView | None,
         return Placement(anchors, wave_limit=None if share == 1.0 else math.ceil(share * len(waves)))
     if view is None or not framing.only_in_view:
         return Placement(anchors)
-    highest = _HIGHEST_WAVE * 4.0 * float(np.sqrt(0.5 * np.sum(waves.amplitude**2)))
+    highest = highest_wave(waves)
     reach = highest * float(waves.orbit_ratio.max(initial=0.0))
     radius = EARTH_RADIUS if framing.curved_earth else np.inf
     planes = frame_planes(view, framing.view_margin)

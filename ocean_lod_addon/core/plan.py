@@ -22,6 +22,7 @@ from .material_settings import MaterialSettings
 from .optics.cox_munk import skewness_c03
 from .parameters import parameters_of
 from .ripple_settings import Ripples
+from .ripples.bump import BumpLayout, bump_layout
 from .roughness import roughening_system
 from .sea import Sea
 from .shot_fit import ShotNeeds, curvature_pixels
@@ -49,6 +50,18 @@ FOAM_ATTRIBUTE = "ocean_foam"
 WHITECAPS_ATTRIBUTE = "ocean_foam_whitecaps"
 """Point attribute, FLOAT, 0 to 1: how much of the foam is whitecaps; far away it is a uniform share of the sea."""
 
+REST_POSITION_ATTRIBUTE = "ocean_rest_position"
+"""Point attribute, FLOAT2, m: undisturbed x, y, where ripples and foam are looked up."""
+
+RIPPLE_AMPLITUDE_ATTRIBUTE = "ocean_ripple_amplitude_"
+"""Point attributes, FLOAT_COLOR, numbered from 0: what the mesh leaves of each band to the ripples, by fours."""
+
+GUST_ATTRIBUTE = "ocean_gust"
+"""Point attribute, FLOAT: what gusts multiply the slopes of ripples by."""
+
+WATER_NODE, RIPPLES_NODE, FOAM_NODE = "Ocean LOD Water", "Ocean LOD Ripples", "Ocean LOD Foam"
+"""Names of the group nodes in an ocean's material."""
+
 EFFECT_ATTRIBUTES = {
     NORMAL_ATTRIBUTE: "FLOAT_VECTOR",
     VELOCITY_ATTRIBUTE: "FLOAT_VECTOR",
@@ -65,17 +78,25 @@ class Facts:
     engine              "CYCLES", "EEVEE" or another that shades without materials
     final               a picture is rendered, not the viewport
     shutter             s that the shutter is open, or 0 without motion blur
-    camera              the camera's needs, or None without a camera
-    visible_to_camera   whether camera rays see the ocean, not only reflections and shadows
-    sees_water          whether any of it is in the camera's frame
+    samples             of each pixel
+    camera              the camera's needs in this frame, or None without a camera
+    sees_water          whether any of the sea is in the camera's frame
+    visible_to_camera   whether camera rays see the ocean
+    visible_to_light    whether reflected, refracted or scattered rays see it; a renderer of shadows only does not
+    casts_shadows       whether it shades other objects
+    shows_water         whether the material's output for this engine is linked to the ocean's own node
     """
 
     engine: str = "CYCLES"
     final: bool = True
     shutter: float = 0.0
+    samples: int = 64
     camera: ShotNeeds | None = None
-    visible_to_camera: bool = True
     sees_water: bool = True
+    visible_to_camera: bool = True
+    visible_to_light: bool = True
+    casts_shadows: bool = True
+    shows_water: bool = True
 
 
 @dataclass(frozen=True)
@@ -108,8 +129,14 @@ class Plan:
     decisions: tuple[Decision, ...]
     tiles: str
     """"none", "in view" or "all"."""
+    why_tiles: str
+    """The reason, in one sentence."""
+    waves: int
+    """Number of waves that are geometry."""
     foam_instants: int
     """How many instants foam is looked for at, where it is on."""
+    ripple_layout: BumpLayout | None
+    """The images and bands of the ripples, where they are on."""
 
     def on(self, effect: str) -> bool:
         """Whether an effect, called as in core.effects, is on."""
@@ -139,6 +166,27 @@ class Plan:
             *((NORMAL_ATTRIBUTE,) if self.on("analytic_normals") else ()),
             *((VELOCITY_ATTRIBUTE,) if self.on("velocity") else ()),
             *((FOAM_ATTRIBUTE, WHITECAPS_ATTRIBUTE) if self.on("foam") else ()),
+            *((REST_POSITION_ATTRIBUTE,) if self.on("foam") or self.on("ripples") else ()),
+            *((GUST_ATTRIBUTE,) if self.on("gusts") else ()),
+            *(f"{RIPPLE_AMPLITUDE_ATTRIBUTE}{number}" for number in range(self._amplitude_attributes)),
+        )
+
+    @property
+    def _amplitude_attributes(self):
+        return -(-self.ripple_layout.handed_over // 4) if self.ripple_layout else 0
+
+    @property
+    def images(self) -> int:
+        """Number of images that are written for each frame."""
+        return len(self.ripple_layout.tiles) if self.ripple_layout else 0
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """Group nodes of the material."""
+        return (
+            WATER_NODE,
+            *((RIPPLES_NODE,) if self.on("ripples") else ()),
+            *((FOAM_NODE,) if self.on("foam") else ()),
         )
 
     def to_json(self) -> dict:
@@ -148,8 +196,12 @@ class Plan:
                 decision.effect: {"on": decision.on, "why": decision.why} for decision in self.decisions
             },
             "tiles": self.tiles,
+            "why_tiles": self.why_tiles,
+            "waves": self.waves,
             "columns_per_vertex": self.columns,
             "attributes": list(self.attributes),
+            "images": self.images,
+            "nodes": list(self.nodes),
         }
 
 
@@ -179,8 +231,11 @@ def decide(facts: Facts, settings: Settings, waves: WaveSet) -> Plan:
     decisions = []
     for name, parameter in parameters_of(Effects).items():
         answer = _word(getattr(settings.effects, name), auto[name])
-        decisions.append(Decision(name, parameter.label, answer.on, answer.why))
-    return Plan(tuple(decisions), _tiles(facts, settings), settings.foam.memory_steps)
+        decisions.append(Decision(name, parameter.label, bool(answer.on), answer.why))
+    tiles, why_tiles = _tiles(facts, settings)
+    ripples = next(decision.on for decision in decisions if decision.effect == "ripples")
+    layout = bump_layout(settings.ripples, settings.grid.shortest_wavelength) if ripples else None
+    return Plan(tuple(decisions), tiles, why_tiles, len(waves), settings.foam.memory_steps, layout)
 
 
 def effective(settings: Settings, plan: Plan) -> Settings:
@@ -193,7 +248,11 @@ def effective(settings: Settings, plan: Plan) -> Settings:
             choppiness=settings.sea.choppiness if choppy else 0.0,
             finite_depth=plan.on("finite_depth"),
         ),
-        framing=replace(settings.framing, curved_earth=plan.on("curved_earth")),
+        framing=replace(
+            settings.framing,
+            curved_earth=plan.on("curved_earth"),
+            only_in_view=settings.framing.only_in_view and plan.tiles != "all",
+        ),
         material=replace(
             settings.material, skewed_slopes=plan.on("skewed_slopes"), see_through=plan.on("see_through")
         ),
@@ -216,9 +275,18 @@ def _word(choice, auto):
 
 
 def _tiles(facts, settings):
-    if facts.final and settings.framing.only_in_view:
-        return "in view" if facts.sees_water else "none"
-    return "all"
+    """Which tiles move, and why."""
+    if not (facts.visible_to_camera or facts.visible_to_light or facts.casts_shadows):
+        return "none", "No ray sees the ocean"
+    if not facts.final:
+        return "all", "The viewport shows the whole plane"
+    if not settings.framing.only_in_view:
+        return "all", "Asked for by the framing"
+    if not facts.visible_to_camera:
+        return "all", "What is seen in reflections or as shadows may lie outside the frame"
+    if facts.sees_water:
+        return "in view", "The others are outside the frame and its margin"
+    return "none", "The sea is outside the frame and its margin"
 
 
 def _pixels(facts, length):
@@ -237,8 +305,16 @@ def _no_shading(facts):
     if facts.engine not in ("CYCLES", "EEVEE"):
         return f"{facts.engine} shades without the ocean's material"
     if not facts.visible_to_camera:
-        return "The ocean is seen in reflections and shadows only"
+        seen = "in reflections and shadows" if facts.visible_to_light else "as a shadow"
+        return f"The ocean is seen {seen} only"
     return ""
+
+
+def _no_water(facts):
+    """Why the ocean's own nodes shade nothing, or an empty text."""
+    if not facts.shows_water:
+        return f"The material's output for {facts.engine} is not linked to the ocean's node"
+    return _no_shading(facts)
 
 
 def _horizontal_displacement(facts, settings, waves):
@@ -303,17 +379,21 @@ def _rms_acceleration(waves):
 
 
 def _foam(facts, settings):
-    """A whitecap smaller than a pixel shows by its share of it, and all of them by their share of the sea."""
+    """A whitecap smaller than a pixel shows by its share of it, and all of them by their share of the sea.
+
+    One that lies between the samples of a pixel is noise: it shows by the share of the sea only.
+    """
     coverage = sea_coverage(settings.foam, settings.sea)
     if coverage == 0.0:
         wind = f"{sea_wind(settings.sea):g} m/s of wind"
         reason = "Foam's Coverage is 0" if settings.foam.coverage == 0.0 else f"No waves break in {wind}"
         return Auto(False, reason, possible=False)
-    nothing = _no_shading(facts)
+    nothing = _no_shading(facts)  # with another material the attribute may be what the artist wants
     if nothing:
         return Auto(False, nothing)
     pixels = _pixels(facts, np.pi / sea_breaker_wavenumber(settings.sea))
     share = 1.0 if pixels is None else min(pixels, 1.0) ** 2
+    share = share if share * facts.samples >= 1.0 else 0.0
     steps = BRIGHTNESS_STEPS * settings.foam.reflectance * max(share, EFFECTIVE_SHARE * coverage)
     return Auto(
         steps >= 1.0,
@@ -327,7 +407,7 @@ def _ripples(facts, settings):
         return Auto(False, "The ripples' kind is Off", possible=False)
     if _wind(settings.sea) == 0.0:
         return Auto(False, "There is no wind to raise ripples", possible=False)
-    nothing = _no_shading(facts)
+    nothing = _no_water(facts)
     if nothing:
         return Auto(False, nothing)
     longest = ripples.longest_wavelength
@@ -362,6 +442,8 @@ def _wind(sea):
 def _skewed_slopes(facts, settings):
     if facts.engine == "CYCLES" and settings.material.sun_model != "formula":
         return Auto(False, "Cycles' own closure reflects the sun, which knows no skew", possible=False)
+    if not facts.shows_water:
+        return Auto(False, _no_water(facts))
     wind = _wind(settings.sea)
     if wind == 0.0:
         return Auto(False, "There is no wind to skew the slopes", possible=False)
@@ -386,7 +468,7 @@ def _curved_earth(facts, settings):
 def _see_through(facts, settings):
     if not settings.material.see_through:
         return Auto(False, "The water's See Through is not asked for")
-    nothing = _no_shading(facts)
+    nothing = _no_water(facts)
     if nothing:
         return Auto(False, nothing)
     return Auto(True, "Asked for by See Through of the water")

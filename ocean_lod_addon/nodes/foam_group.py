@@ -5,6 +5,7 @@ The texture is looked up where the water stands at rest, so that foam moves alon
 """
 
 from ..core.foam import shading
+from ..core.plan import FOAM_ATTRIBUTE, REST_POSITION_ATTRIBUTE, WHITECAPS_ATTRIBUTE
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe, Socket, use_group
 from .ripple_parts import PIXEL_PROPERTY
@@ -21,11 +22,6 @@ from .sockets import (
 )
 from .sunlit_body_group import SUNLIT_BODY
 
-FOAM_ATTRIBUTE_NAME = "ocean_foam"
-WHITECAPS_ATTRIBUTE_NAME = "ocean_foam_whitecaps"
-REST_POSITION_NAME = "ocean_rest_position"
-"""Point attributes of the mesh."""
-
 CYCLES_BELOW = Socket("Water in Cycles", "SHADER", "The water that the foam lies on, for Cycles")
 EEVEE_BELOW = Socket("Water in EEVEE", "SHADER", "The water that the foam lies on, for EEVEE")
 COVERAGE = Socket("Coverage", "FLOAT", "Share of the whole sea that is white", 0.01, 0.0, 1.0, "FACTOR")
@@ -41,7 +37,7 @@ def _build(graph: Graph):
     """The share that foam hides, and a diffuse layer mixed in by it."""
     ops = GraphOps(graph)
     with graph.section("Texture"):
-        rest = graph.output_of(_attribute(graph, REST_POSITION_NAME), "Vector")
+        rest = graph.output_of(_attribute(graph, REST_POSITION_ATTRIBUTE), "Vector")
         grain = graph.input(GRAIN.name)
         noise = graph.node(
             "ShaderNodeTexNoise",
@@ -60,8 +56,8 @@ def _build(graph: Graph):
         angle, size, _ = graph.output_of(_attribute(graph, PIXEL_PROPERTY, "OBJECT"), "Vector").components()
         pixel = graph.label(ops.multiply_add(distance, angle, size) / grain, "pixel over grain")
     with graph.section("Hidden share"):
-        foam = graph.output_of(_attribute(graph, FOAM_ATTRIBUTE_NAME), "Fac")
-        whitecaps = graph.output_of(_attribute(graph, WHITECAPS_ATTRIBUTE_NAME), "Fac")
+        foam = graph.output_of(_attribute(graph, FOAM_ATTRIBUTE), "Fac")
+        whitecaps = graph.output_of(_attribute(graph, WHITECAPS_ATTRIBUTE), "Fac")
         coverage = graph.input(COVERAGE.name)
         hidden = shading.hidden_share(ops, foam, whitecaps, coverage, texture, pixel)
         hidden = graph.label(hidden, "hidden share")

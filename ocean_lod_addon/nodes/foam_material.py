@@ -4,13 +4,14 @@
 import bpy
 
 from ..core.foam_settings import Foam
+from ..core.plan import FOAM_NODE
 from .foam_group import COVERAGE, CYCLES_BELOW, EEVEE_BELOW, FOAM, FOAM_COLOR, GRAIN
 from .groups import ensure_group
 from .layout import arrange
 from .material import NODE_NAME, write_changed, write_socket
 from .sockets import CYCLES, EEVEE, MISSING_SUN, SUN_DIRECTION, SUN_IRRADIANCE
 
-FOAM_NODE_NAME = "Ocean LOD Foam"
+FOAM_NODE_NAME = FOAM_NODE
 """Name of the group node in a material."""
 
 _THROUGH = ((CYCLES, CYCLES_BELOW), (EEVEE, EEVEE_BELOW))

@@ -15,6 +15,7 @@ from ..core.optics.water_types import (
     rgb_backscattering,
     water_leaving_reflectance,
 )
+from ..core.plan import WATER_NODE
 from ..core.sun import Sun
 from .clear_water_group import CLEAR_WATER, SKEWED_CLEAR_WATER
 from .groups import ensure_group
@@ -41,7 +42,7 @@ from .sockets import (
 )
 from .water_group import SKEWED_WATER, WATER
 
-NODE_NAME = "Ocean LOD Water"
+NODE_NAME = WATER_NODE
 """Name of the group node in a material."""
 
 _RECIPES = {
@@ -113,6 +114,21 @@ def write_socket(socket, value):
     """Set a socket unless it has the value, since every write makes the renderers update the material."""
     if not np.array_equal(np.float32(_plain(socket)), np.float32(value)):
         socket.default_value = value
+
+
+def shows_water(material: bpy.types.Material, target: str) -> bool:
+    """Whether the material's output for an engine, "CYCLES" or "EEVEE", is fed by the ocean's node."""
+    tree = material.node_tree
+    output = None if tree is None else tree.get_output_node(target)
+    waiting, seen = [] if output is None else [output], set()
+    while waiting:
+        node = waiting.pop()
+        if node.name == NODE_NAME:
+            return True
+        if node.name not in seen:
+            seen.add(node.name)
+            waiting += [link.from_node for socket in node.inputs for link in socket.links]
+    return False
 
 
 def water_color(settings: MaterialSettings) -> tuple[float, float, float, float]:

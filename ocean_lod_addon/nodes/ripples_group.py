@@ -20,6 +20,7 @@ a pixel. What neither mesh nor bump shows is left to the BRDF.
 import hashlib
 from collections.abc import Sequence
 
+from ..core.plan import GUST_ATTRIBUTE, REST_POSITION_ATTRIBUTE, RIPPLE_AMPLITUDE_ATTRIBUTE
 from ..core.ripples import shading
 from ..core.ripples.bump import BumpLayout
 from . import ripple_parts as parts
@@ -27,17 +28,7 @@ from .graph import Graph, GraphOps
 from .groups import GroupRecipe, Socket, use_group
 from .sockets import NORMAL, SLOPE_VARIANCE
 
-REST_POSITION_ATTRIBUTE = "ocean_rest_position"
-"""Point attribute (FLOAT2) of the mesh: undisturbed x, y in m."""
-
-AMPLITUDE_ATTRIBUTE = "ocean_ripple_amplitude_"
-"""Point attributes (FLOAT_COLOR) of the mesh, numbered from 0: the amplitudes that the mesh leaves to the bands
-that it shows in part, four at a time."""
-
 BANDS_PER_ATTRIBUTE = 4
-
-GUST_ATTRIBUTE = "ocean_gust"
-"""Point attribute (FLOAT) of the mesh: what gusts multiply the slopes of ripples by; only with gusts."""
 
 WAVE_HEIGHT = Socket(
     "Wave Height", "FLOAT", "Significant wave height: random ripples are stronger on high water", 1.0, 0.0, 100.0
@@ -114,7 +105,7 @@ class _Builder:
         graph, count = self.graph, self.layout.handed_over
         result = []
         for first in range(0, count, BANDS_PER_ATTRIBUTE):
-            attribute = self.attribute(f"{AMPLITUDE_ATTRIBUTE}{first // BANDS_PER_ATTRIBUTE}")
+            attribute = self.attribute(f"{RIPPLE_AMPLITUDE_ATTRIBUTE}{first // BANDS_PER_ATTRIBUTE}")
             result += graph.output_of(attribute, "Color").components()
             result.append(graph.output_of(attribute, "Alpha"))
         never_resolved = 1.0

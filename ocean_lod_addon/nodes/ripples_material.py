@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
+from ..core.plan import RIPPLES_NODE
 from ..core.ripples.bump import BumpLayout
 from .groups import ensure_group, find_group
 from .layout import arrange
@@ -13,7 +14,7 @@ from .material import MATERIAL_KEY, NODE_NAME
 from .ripples_group import WAVE_HEIGHT, ripples_recipe, variance_socket
 from .sockets import NORMAL, SLOPE_VARIANCE
 
-RIPPLES_NODE_NAME = "Ocean LOD Ripples"
+RIPPLES_NODE_NAME = RIPPLES_NODE
 """Name of the group node in a material."""
 
 

@@ -139,8 +139,8 @@ def predict(ob, scene, settings=None, final: bool = True) -> dict[str, float]:
     """
     if _machine.model is None:
         return {}
-    facts = planning.scene_facts(ob, scene, final=final)
     settings = settings or planning.read_settings(ob, scene)
+    facts = planning.scene_facts(ob, scene, settings, final=final)
     return _machine.model.predict(planned_work(facts, settings, placing.camera_view(ob, scene)))
 
 

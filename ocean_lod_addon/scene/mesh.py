@@ -4,18 +4,12 @@
 import numpy as np
 
 from ..core.lod import Grid, topology
+from ..core.plan import GUST_ATTRIBUTE as GUST
+from ..core.plan import REST_POSITION_ATTRIBUTE as REST_POSITION
+from ..core.plan import RIPPLE_AMPLITUDE_ATTRIBUTE as RIPPLE_AMPLITUDE
 
 SLOPE_VARIANCE = "ocean_slope_variance"
 """Point attribute, FLOAT_VECTOR: unresolved slope variance (xx, yy, xy) in the object's axes, for shading."""
-
-REST_POSITION = "ocean_rest_position"
-"""Point attribute, FLOAT2: undisturbed x, y in m, where ripples and foam are looked up; only with these."""
-
-RIPPLE_AMPLITUDE = "ocean_ripple_amplitude_"
-"""Point attributes, FLOAT_COLOR, numbered from 0: what the mesh leaves of each band to the ripples, by fours."""
-
-GUST = "ocean_gust"
-"""Point attribute, FLOAT: what gusts multiply the slopes of ripples by; only with gusts."""
 
 _REST_ANCHORS = "ocean_lod_rest_anchors"
 _FINGERPRINT = "ocean_lod_fingerprint"

@@ -119,7 +119,7 @@ def update(ob, scene, depsgraph) -> None:
     stages = frame_times.StageClock()
     planned, surface, placement = decide_frame(ob, scene, depsgraph)
     stages.done("setup")
-    if placement.sees_water:
+    if placement is not None:
         time = scene_sea_time(ob.evaluated_get(depsgraph), scene)
         with_velocity = depsgraph.mode == "RENDER" or planned.plan.on("velocity")
         _write_surface(ob, surface, placement, time, with_velocity, stages)
@@ -131,13 +131,25 @@ def update(ob, scene, depsgraph) -> None:
 
 
 def decide_frame(ob, scene, depsgraph):
-    """What a frame is made by: its plan, surface and placement. Raises OceanError."""
-    evaluated = ob.evaluated_get(depsgraph)
+    """What a frame is made by: its plan, and its surface and placement or None where nothing is to be moved.
+
+    While the shutter of a rendered frame is open the plan and the placement stay. Raises OceanError.
+    """
+    evaluated, final = ob.evaluated_get(depsgraph), depsgraph.mode == "RENDER"
     _check_transform(evaluated, scene)
-    planned = planning.PlannedOcean(evaluated, scene, depsgraph, depsgraph.mode == "RENDER")
-    surface = _surface(planned.ocean)
-    ocean_material.set_surroundings(ob, depsgraph.scene_eval, planned.ocean.sea)
-    return planned, surface, placing.placement_of_frame(ob, surface, scene, depsgraph)
+    kept = placing.decision_of_open_shutter(ob, scene)
+    planned = planning.PlannedOcean(evaluated, scene, depsgraph, final, plan=kept and kept.plan)
+    grid, placement = planned.ocean.grid, kept and kept.placement
+    surface = None
+    if planned.plan.tiles != "none":
+        surface = _surface(planned.ocean)
+        ocean_material.set_surroundings(ob, depsgraph.scene_eval, planned.ocean.sea)
+        if kept is None or kept.grid != grid:
+            placement = surface.placement(placing.camera_view(evaluated, scene, depsgraph), final)
+            placement = placement if placement.sees_water else None
+    if kept is None:
+        placing.keep_decision(ob, scene, placing.FrameDecision(planned.plan, grid, placement))
+    return planned, surface, placement
 
 
 def update_reporting(ob, scene, depsgraph) -> None:
@@ -231,7 +243,8 @@ def _ensure_attributes(mesh, planned):
     bump.ensure_attributes(mesh, ocean)
     mesh_arrays.ensure_gust_attribute(mesh, ocean.ripples.gusts)
     mesh_arrays.ensure_rest_positions(mesh, _looks_up_textures(ocean))
-    mesh_arrays.ensure_attributes(mesh, planned.plan.attributes, EFFECT_ATTRIBUTES)
+    wanted = [name for name in planned.plan.attributes if name in EFFECT_ATTRIBUTES]
+    mesh_arrays.ensure_attributes(mesh, wanted, EFFECT_ATTRIBUTES)
 
 
 def metres_to_units(scene) -> float:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where an ocean's plane stands in a frame: the same for all instants of the frame's shutter interval.
+"""The camera of a frame, and what is decided for an ocean in it: the same at all instants of its shutter interval.
 
-A plane that moved its lattice while the shutter is open would smear. So the placement belongs to the frame being
-rendered: it is taken from the camera at the frame itself, which Blender evaluates first, and kept for the
-sub-frames that the motion blur of this frame asks for. Nothing is kept from one frame to the next.
+A plane that moved its lattice while the shutter is open would smear, and so would one that gained or lost an
+effect. So the decision belongs to the frame being rendered: it is taken from the scene at the frame itself, which
+Blender evaluates first, and kept for the sub-frames that the motion blur of this frame asks for. Nothing is kept
+from one frame to the next.
 """
 
 from dataclasses import dataclass
@@ -11,25 +12,26 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.camera_view import CameraView
-from ..core.ocean import Surface
+from ..core.lod import Grid
 from ..core.placement import Placement
+from ..core.plan import Plan
 from . import clock
 
 
 @dataclass(frozen=True)
-class _Placed:
-    """The placement of an ocean at a frame."""
+class FrameDecision:
+    """How an ocean is made in a frame. `placement` is for this `grid`, and None where nothing is to be moved."""
 
-    frame: float
-    surface: Surface
-    placement: Placement
+    plan: Plan
+    grid: Grid
+    placement: Placement | None
 
 
 _rendered_frames: dict[str, float] = {}
 """The frame being rendered, by scene name; empty while nothing renders."""
 
-_placed: dict[int, _Placed] = {}
-"""By the ocean object's session id."""
+_decided: dict[int, tuple[float, FrameDecision]] = {}
+"""The frame and what was decided for it, by the ocean object's session id."""
 
 
 def begin_rendered_frame(scene) -> None:
@@ -41,21 +43,21 @@ def end_rendered_frame(scene) -> None:
     """The frame is done."""
     _rendered_frames.pop(scene.name, None)
     if not _rendered_frames:
-        _placed.clear()  # surfaces are large
+        _decided.clear()
 
 
-def placement_of_frame(ob, surface: Surface, scene, depsgraph) -> Placement:
-    """The placement of an ocean in the frame being evaluated."""
+def decision_of_open_shutter(ob, scene) -> FrameDecision | None:
+    """What was decided for the frame being rendered, if the scene is at another of its instants."""
     now = clock.current_frame(scene)
     frame = _rendered_frames.get(scene.name, now)
-    kept = _placed.get(ob.session_uid)
-    if now != frame and kept is not None and kept.frame == frame and kept.surface is surface:
-        return kept.placement
-    view = camera_view(ob.evaluated_get(depsgraph), scene, depsgraph)
-    placement = surface.placement(view, final=depsgraph.mode == "RENDER")
+    decided_for, decision = _decided.get(ob.session_uid, (None, None))
+    return decision if decided_for == frame != now else None
+
+
+def keep_decision(ob, scene, decision: FrameDecision) -> None:
+    """Remember what was decided at the scene's current frame while it is rendered."""
     if scene.name in _rendered_frames:
-        _placed[ob.session_uid] = _Placed(frame, surface, placement)
-    return placement
+        _decided[ob.session_uid] = (clock.current_frame(scene), decision)
 
 
 def camera_of_frame(scene):

@@ -35,6 +35,9 @@ class OCEAN_LOD_PT_effects(bpy.types.Panel):
             row.label(text=decision.label, icon="CHECKBOX_HLT" if decision.on else "CHECKBOX_DEHLT")
             row.prop(effects, decision.effect, text="")
             draw_text(context, box, decision.why)
+        column = self.layout.column()
+        draw_text(context, column, f"Tiles that move: {plan.tiles}. {plan.why_tiles}")
+        draw_text(context, column, f"{plan.waves} waves, {plan.columns} numbers per vertex, {plan.images} images")
 
 
 CLASSES = (OCEAN_LOD_PT_effects,)

@@ -9,6 +9,7 @@ import pytest
 from ocean_lod_addon.core.camera_view import (
     CameraView,
     frame_planes,
+    looks_down,
     nearest_visible_water,
     plane_centre,
     visible_tiles,
@@ -143,3 +144,21 @@ def test_the_viewport_shows_its_share_of_waves_and_pictures_all():
     quarter = Framing(viewport_share=0.25)
     assert place(GRID, quarter, waves, None, final=False).wave_limit == -(-len(waves) // 4)
     assert place(GRID, quarter, waves, None, final=True).wave_limit is None
+
+
+def test_who_does_not_look_down_has_no_water_in_frame():
+    """Points of 2 m waves all around, projected; and a camera that sees the sky alone does not look down."""
+    random = np.random.default_rng(3)
+    points = random.uniform((-500.0, -500.0, -2.0), (500.0, 500.0, 2.0), (20_000, 3))
+    answers = set()
+    for pitch in np.linspace(-1.5, 1.5, 31):
+        view = camera(height=5.0, pitch=float(pitch), heading=0.7)
+        answers.add(looks_down(view, 0.0, 2.0))
+        assert looks_down(view, 0.0, 2.0) or not projected_inside(view, points).any()
+        assert looks_down(view, 0.3, 2.0) >= looks_down(view, 0.0, 2.0)
+    assert answers == {True, False}
+    half_height = math.atan(18.0 / 35.0 * 9 / 16)
+    assert looks_down(camera(height=5.0, pitch=-half_height + 0.01), 0.0, 2.0)
+    assert not looks_down(camera(height=5.0, pitch=-half_height - 0.01), 0.0, 2.0)
+    assert looks_down(camera(height=1.0, pitch=-1.0), 0.0, 2.0), "a crest may be higher than the camera"
+    assert looks_down(camera(height=5.0, pitch=-1.0, kind="PANO"), 0.0, 2.0)

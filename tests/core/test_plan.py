@@ -4,6 +4,7 @@
 import dataclasses
 import functools
 import itertools
+import json
 
 import numpy as np
 import pytest
@@ -108,10 +109,33 @@ def test_a_calm_sea_seen_by_nobody_computes_next_to_nothing():
 
 def test_seen_in_reflections_only_shading_is_plain():
     plan = plan_of(visible_to_camera=False)
+    assert plan.tiles == "all", "what a mirror shows may lie outside the frame"
     assert not plan.on("analytic_normals")
     assert not plan.on("ripples")
     assert plan.on("horizontal_displacement")
     assert plan.blocks == (POSITION,)
+
+
+def test_an_ocean_that_no_ray_sees_is_not_moved():
+    hidden = {"visible_to_camera": False, "visible_to_light": False}
+    assert plan_of(**hidden).tiles == "all", "its shadow is seen"
+    assert plan_of(**hidden, casts_shadows=False).tiles == "none"
+    assert plan_of(**hidden, casts_shadows=False).columns == 0
+
+
+def test_with_another_material_the_water_is_not_made_but_foam_is_an_attribute():
+    plan = plan_of(shows_water=False)
+    assert not any(plan.on(effect) for effect in ("ripples", "skewed_slopes", "see_through"))
+    assert plan.on("foam")
+    assert "not linked" in why(plan, "ripples")
+
+
+def test_a_whitecap_between_the_samples_of_a_pixel_is_noise():
+    """Half a pixel wide it covers a quarter of one: four samples find it, three may not, and it is too few to mean
+    anything: 1 % of the sea hides 0.4 %, half a step of 255."""
+    distance = 2.0 * 2.6 / 1e-3
+    assert plan_of(camera=ShotNeeds(distance, 1e-3, 3.0), samples=5).on("foam")
+    assert not plan_of(camera=ShotNeeds(distance, 1e-3, 3.0), samples=3).on("foam")
 
 
 @pytest.mark.parametrize("effect", parameters_of(Effects))
@@ -150,8 +174,8 @@ def test_foam_that_changes_no_pixel_is_off():
     1 of 255 steps where it covers 1 / (0.55 x 255) of a pixel, 31 m wide.
     """
     edge = 2.6 * np.sqrt(0.55 * 255.0) / 1e-3
-    assert plan_of(camera=ShotNeeds(0.8 * edge, 1e-3, 3.0)).on("foam")
-    assert not plan_of(camera=ShotNeeds(1.2 * edge, 1e-3, 3.0)).on("foam")
+    assert plan_of(camera=ShotNeeds(0.8 * edge, 1e-3, 3.0), samples=1000).on("foam")
+    assert not plan_of(camera=ShotNeeds(1.2 * edge, 1e-3, 3.0), samples=1000).on("foam")
     assert "255 steps" in why(plan_of(), "foam")
 
 
@@ -172,8 +196,12 @@ def test_every_pair_of_choices_gives_a_plan_whose_parts_agree():
     ):
         settings = changed(**{first: a, second: b})
         plan = plan_of(settings, engine="EEVEE")
-        foam = plan.on("foam")
-        assert len(plan.attributes) == len(plan.blocks) - 1 + 2 * foam
+        foam, ripples = plan.on("foam"), plan.on("ripples")
+        amplitudes = sum(name.startswith("ocean_ripple_amplitude_") for name in plan.attributes)
+        assert (amplitudes > 0) == (plan.images > 0) == ripples
+        looked_up = 2 * foam + (foam or ripples) + amplitudes + plan.on("gusts")
+        assert len(plan.attributes) == len(plan.blocks) - 1 + looked_up
+        assert plan.nodes == ("Ocean LOD Water", *["Ocean LOD Ripples"] * ripples, *["Ocean LOD Foam"] * foam)
         assert plan.columns == sum(block.columns for block in plan.blocks) + 16 * foam
         used = effective(settings, plan)
         assert (used.sea.choppiness > 0.0) == plan.on("horizontal_displacement")
@@ -184,6 +212,14 @@ def test_every_pair_of_choices_gives_a_plan_whose_parts_agree():
         assert (used.ripples.kind != "off") == plan.on("ripples")
         assert used.ripples.gusts == plan.on("gusts")
         assert (used.foam is not None) == foam
+
+
+def test_a_plan_becomes_json_whatever_decides():
+    """Numbers of NumPy decide some effects; JSON knows none of them."""
+    for settings in (SETTINGS, CALM):
+        for facts in ({}, {"camera": None}, {"camera": FROM_SPACE}, {"sees_water": False}):
+            plan = plan_of(settings, **facts).to_json()
+            assert json.loads(json.dumps(plan)) == plan
 
 
 def test_the_plan_depends_on_its_arguments_alone():

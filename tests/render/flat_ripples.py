@@ -6,17 +6,13 @@ import numpy as np
 
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.lod import Grid
+from ocean_lod_addon.core.plan import REST_POSITION_ATTRIBUTE, RIPPLE_AMPLITUDE_ATTRIBUTE
 from ocean_lod_addon.core.ripple_settings import Ripples
 from ocean_lod_addon.core.ripples.bump import Bump
 from ocean_lod_addon.core.sea import Sea
 from ocean_lod_addon.nodes.groups import ensure_group
 from ocean_lod_addon.nodes.ripple_parts import PIXEL_PROPERTY
-from ocean_lod_addon.nodes.ripples_group import (
-    AMPLITUDE_ATTRIBUTE,
-    REST_POSITION_ATTRIBUTE,
-    ripples_recipe,
-    variance_socket,
-)
+from ocean_lod_addon.nodes.ripples_group import ripples_recipe, variance_socket
 from ocean_lod_addon.scene.ripple_images import ensure_images, write_images
 
 SCALE, OFFSET = 2.0, 0.5
@@ -49,7 +45,7 @@ class FlatRipples:
         rest = mesh.attributes.new(REST_POSITION_ATTRIBUTE, "FLOAT2", "POINT")
         rest.data.foreach_set("vector", corners.astype(np.float32).ravel())
         for number in range(-(-self.bump.layout.handed_over // 4)):
-            amplitude = mesh.attributes.new(f"{AMPLITUDE_ATTRIBUTE}{number}", "FLOAT_COLOR", "POINT")
+            amplitude = mesh.attributes.new(f"{RIPPLE_AMPLITUDE_ATTRIBUTE}{number}", "FLOAT_COLOR", "POINT")
             amplitude.data.foreach_set("color", np.ones(16, np.float32))
         self.water = bpy.data.objects.new("Water", mesh)
         self.scene.collection.objects.link(self.water)

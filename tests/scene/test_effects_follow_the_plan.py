@@ -9,16 +9,19 @@ import pytest
 
 import ocean_lod_addon
 from ocean_lod_addon.core.discretise import discretise
+from ocean_lod_addon.core.foam.whitecaps import Whitecaps
 from ocean_lod_addon.core.gerstner import surface_points
+from ocean_lod_addon.core.kernel import FrameKernel
+from ocean_lod_addon.core.ripples.bump import Bump
 from ocean_lod_addon.scene import mesh as mesh_arrays
 from ocean_lod_addon.scene import ocean_object
 
-EFFECT_ATTRIBUTES = {"custom_normal", "velocity", "ocean_foam", "ocean_foam_whitecaps"}
-FOAM = {"ocean_foam", "ocean_foam_whitecaps"}
+EFFECT_ATTRIBUTES = {"custom_normal", "velocity", "ocean_foam", "ocean_foam_whitecaps", "ocean_rest_position"}
+FOAM = {"ocean_foam", "ocean_foam_whitecaps", "ocean_rest_position"}
 
 
 @pytest.fixture
-def shot():
+def shot(tmp_path):
     """An ocean and a camera in Cycles, where a picture is 16 x 16."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     if not hasattr(bpy.types.Object, "ocean_lod"):
@@ -31,6 +34,7 @@ def shot():
     camera.location = (0.0, 0.0, 5.0)
     scene.collection.objects.link(camera)
     scene.camera = camera
+    scene.render.filepath = str(tmp_path / "frame")
     scene.render.engine = "CYCLES"
     scene.cycles.samples = 1
     scene.render.resolution_x = scene.render.resolution_y = 16
@@ -151,3 +155,34 @@ def test_foam_comes_and_goes_without_breaking_an_artist_s_material(shot):
         assert ("Ocean LOD Foam" in tree.nodes) == (word == "on")
         assert ("Ocean LOD Foam" in bpy.data.node_groups) == (word == "on")
 
+
+def test_frames_without_water_cost_nothing(shot, monkeypatch):
+    """The camera looks at the sea, then at the sky: no wave, ripple or foam is evaluated for the second half."""
+    ocean, scene = shot
+    ocean.ocean_lod.ripples.kind = "spectral"
+    evaluated = []
+    steps = [(FrameKernel, name) for name in ("__init__", "fill_factors", "products", "evaluate")]
+    for owner, name in [*steps, (Bump, "image"), (Whitecaps, "foam")]:
+        whole = getattr(owner, name)
+
+        def counted(*arguments, whole=whole, **more):
+            evaluated.append(scene.frame_current)
+            return whole(*arguments, **more)
+
+        monkeypatch.setattr(owner, name, counted)
+    camera = scene.camera
+    for frame, degrees in ((1, 70.0), (2, 70.0), (3, 150.0), (4, 150.0)):
+        camera.rotation_euler[0] = math.radians(degrees)
+        camera.keyframe_insert("rotation_euler", frame=frame)
+    scene.frame_start, scene.frame_end = 1, 4
+    evaluated.clear()
+    during = []
+    handler = bpy.app.handlers.render_post
+    handler.append(lambda *_: during.append(set(evaluated)))
+    try:
+        bpy.ops.render.render(animation=True)
+    finally:
+        handler.pop()
+    assert during == [{1}, {1, 2}, {1, 2}, {1, 2}]
+    scene.frame_set(4)
+    assert ocean_object.plan(ocean, scene).tiles == "none"
