@@ -11,12 +11,12 @@ MAKE_ENVIRONMENT = $(or $(strip $(PYTHON)),$(NEED_PYTHON)) tools/environment.py
 BLENDER_5.2 = .env/blender-5.2/bin/python
 BLENDER_4.5 = .env/blender-4.5/bin/python
 
-# What `make demo` renders: about five minutes on two idle cores, a frame of film some 4 s of that.
+# What `make demo` renders: four to five minutes on two idle cores, a frame of film some 5 s of that.
 DEMO_PRESET ?= moderate
-STILL_SAMPLES ?= 64
-FILM_FRAMES ?= 1:36
+STILL_SAMPLES ?= 48
+FILM_FRAMES ?= 1:30
 FILM_RESOLUTION ?= 480x270
-FILM_SAMPLES ?= 8
+FILM_SAMPLES ?= 6
 
 # Passed on to pytest, for example: make test TESTS="tests/core -k dispersion"
 TESTS ?=
