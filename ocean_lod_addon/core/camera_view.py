@@ -133,15 +133,17 @@ def nearest_visible_water(view: CameraView) -> np.ndarray:
 _GRAZING = 1e-6
 """Rays that sink less than this never reach the water."""
 
-_RAYS_PER_EDGE = 9
+_EDGE = np.linspace(0.0, 1.0, 9)
+_ALONG_FRAME = np.concatenate([_EDGE, _EDGE, np.zeros(9), np.ones(9)])
+_UP_FRAME = np.concatenate([np.zeros(9), np.ones(9), _EDGE, _EDGE])
+"""Places of rays along the four edges of the frame, as shares of its width and height."""
 
 
 def _frame_rays(view):
     """Rays along the border of the frame: origins and directions, (rays, 3) each."""
     left, right, bottom, top = view.extent
-    u, v = np.linspace(0.0, 1.0, _RAYS_PER_EDGE), np.ones(_RAYS_PER_EDGE)
-    x = left + (right - left) * np.concatenate([u, u, 0 * v, v])
-    y = bottom + (top - bottom) * np.concatenate([0 * v, v, u, u])
+    x = left + (right - left) * _ALONG_FRAME
+    y = bottom + (top - bottom) * _UP_FRAME
     across = x[:, None] * view.axes[0] + y[:, None] * view.axes[1]
     forward = np.broadcast_to(view.axes[2], across.shape)
     if view.kind == "ORTHO":

@@ -7,7 +7,10 @@ from these descriptions, so that a range can never differ between them.
 """
 
 import dataclasses
+import functools
 import math
+import types
+from collections.abc import Mapping
 from dataclasses import dataclass
 from numbers import Integral, Real
 
@@ -103,13 +106,21 @@ def text(label, description, default):
     return _field(Text(label, description, default))
 
 
-def parameters_of(settings) -> dict[str, Parameter]:
+def parameters_of(settings) -> Mapping[str, Parameter]:
     """Field name to parameter, in declaration order, of a settings class or an instance of one."""
-    return {
-        field.name: field.metadata[_METADATA_KEY]
-        for field in dataclasses.fields(settings)
-        if _METADATA_KEY in field.metadata
-    }
+    return _parameters_of_class(settings if isinstance(settings, type) else type(settings))
+
+
+@functools.cache
+def _parameters_of_class(settings_class):
+    """Kept, since every frame reads and validates its settings."""
+    return types.MappingProxyType(
+        {
+            field.name: field.metadata[_METADATA_KEY]
+            for field in dataclasses.fields(settings_class)
+            if _METADATA_KEY in field.metadata
+        }
+    )
 
 
 def validate(settings) -> None:
@@ -127,13 +138,9 @@ def check(name: str, value: object, parameter: Parameter) -> None:
 def _is_allowed(value, parameter):
     match parameter:
         case Number():
-            if isinstance(value, bool) or not isinstance(value, Real) or math.isnan(value):
-                return False
-            return parameter.minimum <= value <= parameter.maximum
+            return _is_of_kind(value, float, Real) and parameter.minimum <= value <= parameter.maximum
         case Integer():
-            if isinstance(value, bool) or not isinstance(value, Integral):
-                return False
-            return parameter.minimum <= value <= parameter.maximum
+            return _is_of_kind(value, int, Integral) and parameter.minimum <= value <= parameter.maximum
         case Choice():
             return value in [option.key for option in parameter.options]
         case Switch():
@@ -141,6 +148,11 @@ def _is_allowed(value, parameter):
         case Text():
             return isinstance(value, str)
     raise TypeError(f"{type(parameter).__name__} is not a kind of parameter")
+
+
+def _is_of_kind(value, usual, kind):
+    """Whether a value is a number of a kind. Asking an abstract class is slow, so the usual type goes first."""
+    return type(value) is usual or (isinstance(value, kind) and not isinstance(value, bool))
 
 
 def allowed_text(parameter: Parameter) -> str:

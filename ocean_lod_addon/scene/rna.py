@@ -4,6 +4,7 @@
 Names, ranges, units and tooltips come from `core.parameters` alone.
 """
 
+import functools
 import math
 import typing
 
@@ -116,11 +117,13 @@ def _python_value(value, parameter):
     return value
 
 
+@functools.lru_cache(maxsize=1024)  # every frame reads all settings anew, most as they were
 def typed_number(value: float) -> float:
     """The shortest decimal number that Blender would keep as this float32 value."""
     return float(str(np.float32(value)))
 
 
+@functools.lru_cache(maxsize=1024)
 def typed_angle(value: float) -> float:
     """The angle in rad whose number of degrees is the shortest that Blender would keep as this float32 value."""
     kept = np.float32(value)
