@@ -311,6 +311,7 @@ def _write_surface(ob, surface, placement, time, with_velocity=True, stages=None
             stages.done("write")
         if FOAM_ATTRIBUTE in attributes:
             foam.write(mesh, surface, more)
+            stages.done("foam")
     anchors = placement.anchors
     if mesh_arrays.has_rest_positions(mesh) and not mesh_arrays.rest_positions_are_for(mesh, anchors):
         mesh_arrays.write_rest_positions(mesh, anchors, surface.undisturbed(anchors))

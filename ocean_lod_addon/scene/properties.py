@@ -231,11 +231,14 @@ def sized_plane(properties) -> tuple[Grid, str]:
 
 
 def write_quality(properties, name: str, sized: Grid, settings) -> None:
-    """Put plane, ripples and effects of a quality (core.plan.Settings) into an object's properties, and remember
-    the plane that it was made from; the caller refreshes the ocean."""
+    """Put what a quality (core.plan.Settings) decides into an object's properties: plane, ripples, foam, effects.
+
+    The plane that it was made from is remembered; the caller refreshes the ocean.
+    """
     with many_changes():
         rna.write(settings.grid, properties.grid)
         rna.write(settings.ripples, properties.ripples)
+        rna.write(settings.foam, properties.foam)
         rna.write(settings.effects, properties.effects)
         rna.write(settings.grid, properties.quality.made)
         rna.write(sized, properties.quality.sized)

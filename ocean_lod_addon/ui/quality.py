@@ -112,7 +112,7 @@ class OCEAN_LOD_PT_quality(_QualityOperator, bpy.types.Panel):
             draw_text(context, layout, "A frame is predicted to take longer than the budget", icon="ERROR")
 
 
-_TOGETHER = {"factors": "products"}
+_TOGETHER = {"factors": "products", "foam_products": "products"}
 """Stages that a frame can not tell apart, and where they are counted."""
 
 

@@ -89,7 +89,7 @@ def test_twenty_configurations_that_no_probe_has_seen():
     assert len(prediction.CASES) == 20
     assert len(set(prediction.CASES)) == 20
     probed = {(cells, levels, waves) for cells, levels, waves, _ in probe._PLANES}
-    assert not probed & {(grid.cells, grid.levels, waves) for grid, waves, _ in prediction.CASES}
+    assert not probed & {(grid.cells, grid.levels, waves) for grid, waves, _, _ in prediction.CASES}
 
 
 def test_a_prediction_is_judged_by_the_measured_time():
@@ -152,7 +152,7 @@ def results():
     )
     difference = pictures.PictureDifference(0.2, 0.9, 3.0)
     whole = configurations.ConfigurationResult(
-        "draft", "Draft", 100, 128, 2.0, 0.5, "off", 20.0, 100.0, 3.0, 3.1, difference
+        "draft", "Draft", 100, 128, 2.0, 0.5, "off", 1, 20.0, 100.0, 3.0, 3.1, difference
     )
     choice = choose(ladder(Grid()), lambda _rung: {"products": 0.004}, 0.005)
     return cost.Results(

@@ -111,7 +111,7 @@ def test_a_prediction_is_the_sum_of_its_stages():
 
 def test_a_probe_prices_every_stage_without_blender():
     prices = probe.probe("einsum").prices
-    assert set(prices) == {"factors", "products", "normals", "ripples"}
+    assert set(prices) == {"factors", "products", "normals", "foam_products", "foam", "ripples"}
     for stage, values in prices.items():
         assert len(values) == len(STAGES[stage].counts(NOTHING))
         assert min(values) >= 0.0 < max(values)
@@ -211,10 +211,14 @@ def test_planned_work_is_that_of_the_plan():
     facts = Facts(engine="CYCLES", final=False)
     work = planned_work(facts, settings(cells=64, levels=3), None)
     assert work.normals > 0.0  # the plan shades with wave normals
-    assert work.vectors == 2.0
+    assert work.vectors == 2.0 + 1 / 3, "positions, normals and foam, which is one number instead of three"
+    assert work.foam_floats == Foam().memory_steps * work.vertices
     without = dataclasses.replace(settings(cells=64, levels=3), effects=Effects(analytic_normals="off"))
     assert planned_work(facts, without, None).normals == 0.0
     assert planned_work(facts, without, None).floats == 3 * Grid(cells=64, levels=3).vertex_count
+    foamless = dataclasses.replace(settings(cells=64, levels=3), effects=Effects(foam="off"))
+    bare = planned_work(facts, foamless, None)
+    assert (bare.foam_multiplications, bare.foam_floats, bare.foam_vertices, bare.vectors) == (0.0, 0.0, 0.0, 2.0)
 
 
 def test_stages_have_names_for_people():

@@ -33,6 +33,7 @@ class ConfigurationResult:
     samples: float
     reach: float
     texels: str
+    instants: int
     height: float
     ripples: float
     predicted: float
@@ -49,6 +50,7 @@ class ConfigurationResult:
             "vertices_per_wavelength": self.samples,
             "reach": self.reach,
             "ripples": self.texels,
+            "foam_instants": self.instants,
             "height_error_mm": self.height,
             "ripples_wrong_percent": self.ripples,
             "predicted_ms": self.predicted,
@@ -78,6 +80,7 @@ def _measure(name, quality, model, rounds, with_blender):
         quality.samples,
         quality.reach,
         quality.ripples,
+        quality.instants,
         height_error(quality),
         _ripples_wrong(quality),
         1e3 * model.total(frames.work(settings)),

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Frames of whole configurations, to be timed: by NumPy alone, or through the handler that Blender calls."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.column_blocks import TANGENTS
+from ...core.column_blocks import POSITION, TANGENTS
 from ...core.cost.planned import planned_work
 from ...core.cost.work import Work
+from ...core.discretise import discretise
 from ...core.effects import Effects
 from ...core.foam_settings import Foam
 from ...core.framing import Framing
@@ -15,7 +16,7 @@ from ...core.lod import Grid
 from ...core.material_settings import MaterialSettings
 from ...core.normals import surface_normals
 from ...core.ocean import Ocean, Surface
-from ...core.plan import Facts, Settings
+from ...core.plan import Facts, Settings, decide, effective
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
 from ..bench.timing import FRAMES_PER_SECOND, Contestant
@@ -24,9 +25,9 @@ IN_VIEWPORT = Facts(engine="CYCLES", final=False)
 """What is timed: a frame of the viewport, where the whole plane moves, without a camera."""
 
 
-def settings_of(sea: Sea, grid: Grid, ripples: Ripples) -> Settings:
+def settings_of(sea: Sea, grid: Grid, ripples: Ripples, foam: Foam | None = None) -> Settings:
     """An artist's settings with everything else left to itself."""
-    return Settings(sea, grid, Framing(), MaterialSettings(), ripples, Foam(), Effects())
+    return Settings(sea, grid, Framing(), MaterialSettings(), ripples, foam or Foam(), Effects())
 
 
 def work(settings: Settings) -> Work:
@@ -38,24 +39,36 @@ class NumpyFrame:
     """The stages of a frame that need no Blender, with any contraction."""
 
     def __init__(self, settings: Settings, contraction: str | None):
-        ripples = settings.ripples
-        if settings.effects.ripples == "off":
-            ripples = replace(ripples, kind="off")
-        self._surface = Surface(Ocean(settings.sea, settings.grid, settings.framing, ripples), contraction)
+        plan = decide(IN_VIEWPORT, settings, discretise(settings.sea, settings.grid.shortest_wavelength))
+        used = effective(settings, plan)
+        ocean = Ocean(used.sea, used.grid, used.framing, used.ripples, used.foam)
+        self._surface = Surface(ocean, contraction)
         self._placement = self._surface.placement()
-        self._positions = np.empty((self._surface.vertex_count, 3), np.float32)
-        self._tangents = np.empty((self._surface.vertex_count, TANGENTS.columns), np.float32)
+        self._positions = self._array(POSITION.columns)
+        self._tangents = self._array(TANGENTS.columns) if TANGENTS in plan.blocks else None
+        self._foam = None if ocean.foam is None else self._array(ocean.foam.memory_steps)
         self._bump = self._surface.bump
+
+    def _array(self, columns):
+        return np.empty((self._surface.vertex_count, columns), np.float32)
 
     def contestant(self, name: str) -> Contestant:
         """The stages as parts."""
-        return Contestant(name, {"waves": self._waves, "normals": self._normals, "ripples": self._ripples})
+        parts = {"waves": self._waves}
+        if self._tangents is not None:
+            parts["normals"] = lambda _time: surface_normals(self._tangents, self._positions)
+        if self._foam is not None:
+            parts["foam"] = self._find_foam
+        return Contestant(name, parts | {"ripples": self._ripples})
 
     def _waves(self, time):
-        self._surface.positions(time, self._placement, self._positions, {TANGENTS: self._tangents})
+        more = {} if self._tangents is None else {TANGENTS: self._tangents}
+        if self._foam is not None:
+            more[self._surface.whitecaps.block] = self._foam
+        self._surface.positions(time, self._placement, self._positions, more)
 
-    def _normals(self, _time):
-        surface_normals(self._tangents, self._positions)
+    def _find_foam(self, _time):
+        self._surface.whitecaps.foam(self._foam, np.empty(len(self._foam), np.float32))
 
     def _ripples(self, time):
         if self._bump is None or not self._bump.moves:

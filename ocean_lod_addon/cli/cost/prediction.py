@@ -4,6 +4,7 @@
 from dataclasses import dataclass
 
 from ...core.cost.model import CostModel
+from ...core.foam_settings import Foam
 from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
@@ -22,28 +23,28 @@ _NONE, _256, _512, _1024 = (
 )
 
 CASES = (
-    (Grid(0.10, 72, 10), 48, _NONE),
-    (Grid(0.10, 88, 11), 128, _NONE),
-    (Grid(0.05, 104, 12), 96, _256),
-    (Grid(0.20, 112, 9), 200, _NONE),
-    (Grid(0.10, 136, 10), 64, _512),
-    (Grid(0.08, 144, 11), 128, _256),
-    (Grid(0.15, 160, 8), 256, _NONE),
-    (Grid(0.10, 168, 11), 32, _256),
-    (Grid(0.30, 176, 7), 128, _1024),
-    (Grid(0.10, 200, 9), 160, _NONE),
-    (Grid(0.07, 208, 11), 96, _512),
-    (Grid(0.10, 224, 10), 128, _256),
-    (Grid(0.10, 240, 8), 48, _NONE),
-    (Grid(0.12, 264, 9), 128, _512),
-    (Grid(0.10, 280, 7), 192, _NONE),
-    (Grid(0.05, 304, 10), 128, _256),
-    (Grid(0.10, 336, 8), 80, _512),
-    (Grid(0.10, 352, 9), 128, _NONE),
-    (Grid(0.10, 400, 6), 112, _256),
-    (Grid(0.10, 448, 7), 64, _NONE),
+    (Grid(0.10, 72, 10), 48, _NONE, 16),
+    (Grid(0.10, 88, 11), 128, _NONE, 1),
+    (Grid(0.05, 104, 12), 96, _256, 4),
+    (Grid(0.20, 112, 9), 200, _NONE, 16),
+    (Grid(0.10, 136, 10), 64, _512, 8),
+    (Grid(0.08, 144, 11), 128, _256, 16),
+    (Grid(0.15, 160, 8), 256, _NONE, 1),
+    (Grid(0.10, 168, 11), 32, _256, 4),
+    (Grid(0.30, 176, 7), 128, _1024, 16),
+    (Grid(0.10, 200, 9), 160, _NONE, 8),
+    (Grid(0.07, 208, 11), 96, _512, 16),
+    (Grid(0.10, 224, 10), 128, _256, 1),
+    (Grid(0.10, 240, 8), 48, _NONE, 4),
+    (Grid(0.12, 264, 9), 128, _512, 16),
+    (Grid(0.10, 280, 7), 192, _NONE, 8),
+    (Grid(0.05, 304, 10), 128, _256, 16),
+    (Grid(0.10, 336, 8), 80, _512, 1),
+    (Grid(0.10, 352, 9), 128, _NONE, 4),
+    (Grid(0.10, 400, 6), 112, _256, 16),
+    (Grid(0.10, 448, 7), 64, _NONE, 8),
 )
-"""(Plane, waves, ripples): 38 k to 827 k vertices."""
+"""(Plane, waves, ripples, instants of foam): 38 k to 827 k vertices."""
 
 
 @dataclass(frozen=True)
@@ -74,9 +75,9 @@ def try_model(model: CostModel, rounds: int, contraction: str | None, with_blend
     return [_try_case(model, rounds, contraction, with_blender, *case) for case in CASES]
 
 
-def _try_case(model, rounds, contraction, with_blender, grid, waves, ripples):
-    settings = frames.settings_of(Sea(wave_count=waves), grid, ripples)
-    name = f"{grid.vertex_count} vertices, {waves} waves, ripples {_text(ripples)}"
+def _try_case(model, rounds, contraction, with_blender, grid, waves, ripples, instants):
+    settings = frames.settings_of(Sea(wave_count=waves), grid, ripples, Foam(memory_steps=instants))
+    name = f"{grid.vertex_count} vertices, {waves} waves, ripples {_text(ripples)}, foam {instants}"
     predicted = model.total(frames.work(settings))
     if with_blender:
         with in_blender.fresh_data():

@@ -49,7 +49,7 @@ def misprint_lines(errors: list[float]) -> list[str]:
 def configuration_lines(results: list[ConfigurationResult]) -> list[str]:
     """Whole configurations."""
     lines = [
-        f"  {'':10}{'vertices':>9}{'per wave':>9}{'reach':>6}{'ripples':>8}{'mm':>7}{'% wrong':>8}"
+        f"  {'':10}{'vertices':>9}{'per wave':>9}{'reach':>6}{'ripples':>8}{'foam':>5}{'mm':>7}{'% wrong':>8}"
         f"{'steps':>7}{'95 %':>7}{'predicted':>10}{'measured':>9}"
     ]
     for each in results:
@@ -57,7 +57,7 @@ def configuration_lines(results: list[ConfigurationResult]) -> list[str]:
         steps = ("-", "-") if picture is None else (f"{picture.mean:.2f}", f"{picture.percentile_95:.2f}")
         lines.append(
             f"  {each.label:10}{each.vertices:>9}{each.samples:>9g}{each.reach:>6g}{each.texels:>8}"
-            f"{each.height:>7.2f}{each.ripples:>8.2f}{steps[0]:>7}{steps[1]:>7}"
+            f"{each.instants:>5}{each.height:>7.2f}{each.ripples:>8.2f}{steps[0]:>7}{steps[1]:>7}"
             f"{each.predicted:>7.1f} ms{each.measured:>6.1f} ms"
         )
     return lines
@@ -76,7 +76,7 @@ def picture_line(pictures: Pictures) -> str:
 def prediction_lines(predictions: list[Prediction]) -> list[str]:
     """Predicted beside measured times."""
     lines = [
-        f"  {each.name:50}{1e3 * each.predicted:8.2f} ms predicted {1e3 * each.measured:8.2f} ms measured "
+        f"  {each.name:56}{1e3 * each.predicted:8.2f} ms predicted {1e3 * each.measured:8.2f} ms measured "
         f"{100.0 * each.off_by:+6.1f} %"
         for each in predictions
     ]

@@ -19,7 +19,7 @@ def planned_work(facts: Facts, settings: Settings, view: CameraView | None) -> W
     plan = decide(facts, settings, _waves(settings.sea, shortest))
     used = effective(settings, plan)
     placement = place(used.grid, used.framing, _waves(used.sea, shortest), view, facts.final)
-    ocean = Ocean(used.sea, used.grid, used.framing, used.ripples)
+    ocean = Ocean(used.sea, used.grid, used.framing, used.ripples, used.foam)
     visible = None if placement.visible is None else tuple(placement.visible.tolist())
     return _work(ocean, plan.blocks, visible, placement.wave_limit)
 

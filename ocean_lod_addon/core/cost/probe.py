@@ -9,6 +9,8 @@ import numpy as np
 from ..column_blocks import POSITION, TANGENTS
 from ..contraction import CONTRACTIONS, fastest_contraction
 from ..discretise import discretise
+from ..foam.whitecaps import Whitecaps
+from ..foam_settings import Foam
 from ..kernel import FrameKernel
 from ..lod import Grid
 from ..normals import surface_normals
@@ -43,6 +45,9 @@ _FRAME = 1.0 / 24.0
 
 _RIPPLES = tuple(Ripples(resolution=texels) for texels in ("256", "512", "1024"))
 _NO_RIPPLES = Ripples(kind="off")
+_FOAM = ((64, 8, 64, 4), (128, 8, 32, 16), (128, 8, 160, 8), (256, 8, 64, 4), (256, 8, 32, 1))
+"""(cells, levels, waves, instants)"""
+
 _NORMALS = (1 << 13, 1 << 17)
 
 _NOTHING = Work(*[0.0] * len(fields(Work)))
@@ -74,11 +79,15 @@ def probe(contraction: str | None = None) -> CostModel:
 
 def surface_cases(contraction: str | None = None) -> dict[str, list]:
     """What tells the prices of waves and normals."""
-    surfaces = [_Surface(contraction or fastest_contraction(), *plane) for plane in _PLANES]
+    contraction = contraction or fastest_contraction()
+    surfaces = [_Surface(contraction, *plane) for plane in _PLANES]
+    foamy = [_FoamSurface(contraction, *plane) for plane in _FOAM]
     return {
         "factors": [(surface.work, surface.form_factors) for surface in surfaces],
         "products": [(surface.work, surface.multiply) for surface in surfaces],
         "normals": [_normals_case(count) for count in _NORMALS],
+        "foam_products": [(surface.work, surface.multiply) for surface in foamy],
+        "foam": [(surface.work, surface.find) for surface in foamy],
     }
 
 
@@ -122,6 +131,29 @@ class _Surface:
         self._multiply(
             [p for block, out in self._outputs.items() for p in self._kernel.products(out, block=block)]
         )
+
+
+class _FoamSurface:
+    """A plane whose whitecaps are looked for, and the two parts of that."""
+
+    def __init__(self, contraction, cells, levels, count, instants):
+        grid, settings = Grid(cell_size=0.1, cells=cells, levels=levels), Foam(memory_steps=instants)
+        ocean = Ocean(Sea(wave_count=count), grid, ripples=_NO_RIPPLES, foam=settings)
+        waves = discretise(ocean.sea, grid.shortest_wavelength)
+        self._kernel = FrameKernel(grid, waves, contraction)
+        self._whitecaps = Whitecaps(settings, ocean.sea, grid, waves)
+        self._multiply = CONTRACTIONS[contraction].multiply
+        self._columns = np.zeros((self._kernel.vertex_count, instants), np.float32)
+        self._kernel.fill_factors(0.0, np.zeros((levels, 2)), (self._whitecaps.block,))
+        self.work = work_of(ocean, waves, ())
+
+    def multiply(self, _time):
+        """The columns of all instants."""
+        self._multiply(self._kernel.products(self._columns, block=self._whitecaps.block))
+
+    def find(self, _time):
+        """The foam in them."""
+        self._whitecaps.foam(self._columns, np.zeros(len(self._columns), np.float32))
 
 
 def _normals_case(count):

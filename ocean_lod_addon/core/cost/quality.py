@@ -3,7 +3,7 @@
 
 Every step keeps the shortest wave of the mesh, and with it each single wave: crests stay where they are, so that a
 shot laid out in Draft is the shot that is rendered in Film. What changes is how many vertices a wave has, how far
-from the camera it stays geometry, and the images of the ripples.
+from the camera it stays geometry, the images of the ripples, and how finely the trail of a breaking crest fades.
 """
 
 from dataclasses import dataclass, replace
@@ -27,6 +27,7 @@ class Quality:
     samples   vertices per wavelength of the shortest wave, 2 or more
     reach     how far waves stay geometry, over how far they do on the plane that was sized by the artist
     ripples   texels along a side of the ripples' images, or "off": then they are roughness
+    instants  at how many instants foam is looked for; with 1 a breaking crest leaves no trail
     """
 
     label: str
@@ -34,17 +35,23 @@ class Quality:
     samples: float
     reach: float
     ripples: str
+    instants: int
 
 
 QUALITIES: dict[str, Quality] = {
     "draft": Quality(
-        "Draft", "To lay out a shot: waves are coarse and soon fade, ripples are roughness", 2.0, 0.375, "off"
+        "Draft", "To lay out a shot: waves are coarse and soon fade, ripples are roughness", 2.0, 0.375, "off", 1
     ),
-    "preview": Quality("Preview", "To judge motion: ripples move", 3.0, 1.0, "256"),
-    "standard": Quality("Standard", "As the plane was sized for the shot", 4.0, 1.0, "512"),
-    "film": Quality("Film", "For the final picture: smooth waves up close", 6.0, 1.0, "512"),
+    "preview": Quality("Preview", "To judge motion: ripples move, foam trails", 3.0, 1.0, "256", 4),
+    "standard": Quality("Standard", "As the plane was sized for the shot", 4.0, 1.0, "512", 16),
+    "film": Quality("Film", "For the final picture: smooth waves up close", 6.0, 1.0, "512", 16),
     "reference": Quality(
-        "Reference", "What the others are measured by: twice of everything shows no difference", 8.0, 1.0, "2048"
+        "Reference",
+        "What the others are measured by: twice of everything shows no difference",
+        8.0,
+        1.0,
+        "2048",
+        64,
     ),
 }
 """By name, each at least as accurate as the one before in every respect."""
@@ -59,7 +66,8 @@ def apply(quality: Quality, settings: Settings) -> Settings:
     if ripples.kind != "off" and quality.ripples != "off":
         ripples = replace(ripples, kind="spectral", resolution=quality.ripples)
     effects = replace(settings.effects, ripples=OFF if quality.ripples == "off" else AUTO)
-    return replace(settings, grid=_grid(quality, settings.grid), ripples=ripples, effects=effects)
+    foam = replace(settings.foam, memory_steps=quality.instants)
+    return replace(settings, grid=_grid(quality, settings.grid), ripples=ripples, foam=foam, effects=effects)
 
 
 def _grid(quality, sized):

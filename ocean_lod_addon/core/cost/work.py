@@ -33,6 +33,9 @@ class Work:
     texels           texels of ripple images that are written, times the bands in each
     far_texels       those of images of so many texels that a processor's caches do not hold them
     images           how many ripple images are written
+    foam_multiplications  multiply-adds of the columns in which foam is looked for
+    foam_floats      numbers that they are, each looked through for foam
+    foam_vertices    vertices with foam, 0 without
     """
 
     multiplications: float
@@ -46,12 +49,22 @@ class Work:
     texels: float
     far_texels: float
     images: float
+    foam_multiplications: float
+    foam_floats: float
+    foam_vertices: float
+
+
+_FOAM_VECTORS = 1 / 3
+"""The foam of a vertex is a number, not a vector."""
 
 
 def work_of(
     ocean: Ocean, waves: WaveSet, blocks: tuple[ColumnBlock, ...], visible=None, wave_limit: int | None = None
 ) -> Work:
-    """The work of one frame with these column blocks; `visible` and `wave_limit` as in `Placement`."""
+    """The work of one frame with these column blocks, and those of foam if the ocean has foam.
+
+    `visible` and `wave_limit` as in `Placement`.
+    """
     counts = _waves_of_tiles(ocean.grid, waves.wavelength)
     plane = tiles(ocean.grid.cells, ocean.grid.levels)
     vertices = np.array([tile.vertex_count for tile in plane], dtype=float)
@@ -64,6 +77,7 @@ def work_of(
     columns = sum(block.columns for block in blocks)
     inner = 2 * counts + base
     rows = np.array([tile.rows * _pieces(tile.columns, blocks) for tile in plane], dtype=float)
+    instants = 0 if ocean.foam is None else ocean.foam.memory_steps
     return Work(
         multiplications=float(columns * np.sum(inner * vertices)),
         runs=float(np.sum(inner * rows)),
@@ -72,7 +86,10 @@ def work_of(
         factor_terms=float(_factor_terms(ocean.grid, waves.wavelength)),
         vertices=float(ocean.grid.vertex_count),
         normals=float(ocean.grid.vertex_count) if TANGENTS in blocks else 0.0,
-        vectors=float(len(blocks)),
+        vectors=len(blocks) + (_FOAM_VECTORS if instants else 0.0),
+        foam_multiplications=float(instants * np.sum(inner * vertices)),
+        foam_floats=float(instants * ocean.grid.vertex_count),
+        foam_vertices=float(ocean.grid.vertex_count) if instants else 0.0,
         **ripple_work(_images(ocean)),
     )
 

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..column_blocks import ColumnBlock
+from ..contraction import in_threads
 from ..dispersion import wavenumber
 from ..foam_settings import Foam
 from ..lod import Grid
@@ -50,8 +51,8 @@ _CALIBRATED_SHARES = (_FADED_AT, _WHOLE_FROM, 1.0)
 
 _SEARCHED_DISTANCES = 64
 
-_CHUNK = 4096
-"""Vertices whose foam is worked out at a time, so that it stays in the processor's cache."""
+_CHUNK = 1 << 16
+"""Vertices of one thread's turn: with fewer, threads spend their time on waiting for the interpreter."""
 
 
 def sea_wind(sea: Sea) -> float:
@@ -156,13 +157,17 @@ class Whitecaps:
 
         `columns` (vertices, instants) are what the kernel made of `block`.
         """
-        decay, vertices = self.memory.decay.astype(np.float32)[:, None], self._vertices
-        for start in range(0, len(columns), _CHUNK):
-            part = slice(start, start + _CHUNK)
-            instants = np.array(columns[part].T, order="C")
-            instants *= vertices.gain[part]
-            instants -= decay * vertices.offset[part]
-            np.minimum(instants, decay, out=instants)
-            foam = np.maximum(instants.max(axis=0), 0.0, out=out[part])
-            foam *= vertices.fade[part]
-            foam += vertices.uniform[part]
+        decay, vertices = self.memory.decay.astype(np.float32), self._vertices
+
+        def work_out(part):
+            gain, offset = vertices.gain[part], vertices.offset[part]
+            foam = np.zeros(len(gain), np.float32)
+            here, lowered = np.empty_like(foam), np.empty_like(foam)
+            for instant, left in zip(columns[part].T, decay, strict=True):
+                np.multiply(instant, gain, out=here)
+                here -= np.multiply(left, offset, out=lowered)
+                np.maximum(foam, np.minimum(here, left, out=here), out=foam)
+            np.multiply(foam, vertices.fade[part], out=out[part])
+            out[part] += vertices.uniform[part]
+
+        in_threads(work_out, [slice(start, start + _CHUNK) for start in range(0, len(columns), _CHUNK)])

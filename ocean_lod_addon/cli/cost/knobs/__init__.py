@@ -5,6 +5,7 @@ knob            what a knob is
 geometry        waves, mesh density, windows, precision
 waves           how a spectrum becomes a set of waves
 ripples         the bump
+foam            the memory of foam
 shading         Fresnel, masking, slope densities
 misprints       the equations as printed
 in_blender      what only Blender can measure

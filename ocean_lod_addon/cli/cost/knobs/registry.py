@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All accuracy knobs, and which of a knob's steps are worth having."""
 
-from . import geometry, in_blender, misprints, ripples, shading, waves
+from . import foam, geometry, in_blender, misprints, ripples, shading, waves
 from .knob import Knob
 
 KNOBS: tuple[Knob, ...] = (
@@ -11,6 +11,7 @@ KNOBS: tuple[Knob, ...] = (
     geometry.PRECISION,
     waves.DISCRETISATION,
     ripples.RIPPLES,
+    foam.MEMORY,
     shading.FRESNEL,
     shading.MEAN_FRESNEL,
     shading.MASKING,
