@@ -6,7 +6,7 @@ import bpy
 from ..core.foam_settings import Foam
 from ..core.plan import FOAM_NODE
 from .foam_group import COVERAGE, CYCLES_BELOW, EEVEE_BELOW, FOAM, FOAM_COLOR, GRAIN
-from .groups import ensure_group
+from .groups import ensure_group, remove_unused
 from .layout import arrange
 from .material import NODE_NAME, write_changed, write_socket
 from .sockets import CYCLES, EEVEE, MISSING_SUN, SUN_DIRECTION, SUN_IRRADIANCE
@@ -74,5 +74,4 @@ def hide_foam(material: bpy.types.Material) -> None:
                 tree.links.new(source, target)
     group = node.node_tree
     tree.nodes.remove(node)
-    if group is not None and group.users == 0:
-        bpy.data.node_groups.remove(group)
+    remove_unused(group)

@@ -100,6 +100,16 @@ def ensure_group(recipe: GroupRecipe) -> bpy.types.NodeTree:
     return tree
 
 
+def remove_unused(tree) -> None:
+    """Remove a group of ours that nothing uses any more, and those inside it that only it used."""
+    if tree is None or tree.users or GROUP_KEY not in tree:
+        return
+    inner = {node.node_tree.name for node in tree.nodes if node.type == "GROUP" and node.node_tree is not None}
+    bpy.data.node_groups.remove(tree)
+    for name in inner:
+        remove_unused(bpy.data.node_groups.get(name))  # one of the others may have taken it along
+
+
 def _declare_sockets(tree, recipe):
     """Make the interface of `tree` that of `recipe`, keeping the items that stay."""
     for item in list(tree.interface.items_tree):

@@ -18,7 +18,7 @@ from ..core.optics.water_types import (
 from ..core.plan import WATER_NODE
 from ..core.sun import Sun
 from .clear_water_group import CLEAR_WATER, SKEWED_CLEAR_WATER
-from .groups import ensure_group
+from .groups import ensure_group, remove_unused
 from .layout import arrange, fitting_width
 from .sockets import (
     ABSORPTION,
@@ -186,13 +186,18 @@ def _build_tree(tree):
 
 
 def _use_group(material, group):
-    """Exchange the group of the material's node; links and values stay with the sockets of the same name."""
+    """Exchange the group of the material's node; links and values stay with sockets of the same name.
+
+    The group that it had goes, unless something else uses it.
+    """
     tree = material.node_tree
     node = tree.nodes[NODE_NAME]
     values = {socket.name: _plain(socket) for socket in node.inputs if hasattr(socket, "default_value")}
     sources = [(link.from_socket, link.to_socket.name) for link in tree.links if link.to_node == node]
     targets = [(link.from_socket.name, link.to_socket) for link in tree.links if link.from_node == node]
+    before = node.node_tree
     node.node_tree = group
+    remove_unused(before)
     node.width = fitting_width(node)
     for name, value in values.items():
         if name in node.inputs:

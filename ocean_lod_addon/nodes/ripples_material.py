@@ -8,7 +8,7 @@ import numpy as np
 
 from ..core.plan import RIPPLES_NODE
 from ..core.ripples.bump import BumpLayout
-from .groups import ensure_group, find_group
+from .groups import ensure_group, remove_unused
 from .layout import arrange
 from .material import MATERIAL_KEY, NODE_NAME
 from .ripples_group import WAVE_HEIGHT, ripples_recipe, variance_socket
@@ -62,8 +62,7 @@ def hide_ripples(material: bpy.types.Material) -> None:
             tree.links.new(source, target)
     group = node.node_tree
     tree.nodes.remove(node)
-    if group == find_group(ripples_group_name(material)) and group.users == 0:
-        bpy.data.node_groups.remove(group)
+    remove_unused(group)
 
 
 def set_ripple_values(material: bpy.types.Material, tensors: np.ndarray, wave_height: float) -> None:

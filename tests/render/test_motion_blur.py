@@ -102,16 +102,19 @@ def edge_variance(scene):
     return float((slope * (x - mean) ** 2).sum() / slope.sum())
 
 
-@pytest.mark.parametrize("engine", ["CYCLES", "EEVEE"])
-def test_blur_is_speed_times_shutter(crest, engine):
+@pytest.mark.render
+@pytest.mark.parametrize(("engine", "velocity"), [("CYCLES", "on"), ("CYCLES", "off"), ("EEVEE", "auto")])
+def test_blur_is_speed_times_shutter(crest, engine, velocity):
+    """From the water's velocity in Cycles, and from the instants of the shutter in both engines."""
     scene, ocean, waves = crest
+    ocean.ocean_lod.effects.velocity = velocity
     if engine == "EEVEE":
         offered = [item.identifier for item in bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items]
         engine = next(name for name in offered if name.startswith("BLENDER_EEVEE"))
     scene.render.engine = engine
     scene.render.use_motion_blur = False
     sharp = edge_variance(scene)
-    assert "velocity" not in ocean.data.attributes
+    assert ("velocity" in ocean.data.attributes) == (velocity == "on")
     assert math.sqrt(12.0 * sharp) < 4.0 * SEEN / PIXELS, "nothing is blurred but by the pixel filter"
     scene.render.use_motion_blur = True
     blurred = edge_variance(scene)

@@ -36,7 +36,7 @@ def shot(tmp_path):
     scene.camera = camera
     scene.render.filepath = str(tmp_path / "frame")
     scene.render.engine = "CYCLES"
-    scene.cycles.samples = 1
+    scene.cycles.samples = scene.eevee.taa_render_samples = 1
     scene.render.resolution_x = scene.render.resolution_y = 16
     yield ocean, scene
     ocean_lod_addon.unregister()

@@ -9,7 +9,7 @@ import pytest
 
 from ocean_lod_addon import ui
 from ocean_lod_addon.core import presets
-from ocean_lod_addon.scene import mesh, properties
+from ocean_lod_addon.scene import mesh, ocean_object, properties
 
 LEAVES_THE_SCENE_ALONE = {
     "object.ocean_lod_save_preset",
@@ -63,6 +63,44 @@ def test_undo_and_redo(ocean, name, tmp_path):
     assert state() == before
     bpy.ops.ed.redo()
     assert state() == after
+
+
+def parts():
+    """What effects put into a file: attributes, nodes and what links them, groups and images."""
+    (ob,) = (ob for ob in bpy.data.objects if ob.ocean_lod.is_ocean)
+    tree = ob.data.materials[0].node_tree
+    links = ((link.from_node, link.from_socket, link.to_node, link.to_socket) for link in tree.links)
+    return (
+        {attribute.name for attribute in ob.data.attributes},
+        {tuple(end.name for end in link) for link in links},
+        {group.name for group in bpy.data.node_groups},
+        {image.name for image in bpy.data.images},
+    )
+
+
+def test_effects_can_be_undone_and_redone(ocean):
+    """Truth: parts come back and go as they were, an artist's own node stays, and the ocean moves on."""
+    tree = ocean.data.materials[0].node_tree
+    own = tree.nodes.new("ShaderNodeMixShader")
+    tree.links.new(tree.nodes["Ocean LOD Foam"].outputs["Cycles"], own.inputs[1])
+    bpy.ops.ed.undo_push(message="before")
+    before = parts()
+    effects = ocean.ocean_lod.effects
+    effects.foam, effects.ripples, effects.gusts, effects.see_through = "off", "off", "on", "on"
+    bpy.ops.ed.undo_push(message="after")
+    after = parts()
+    assert ("Ocean LOD Water", "Cycles", own.name, "Shader") in after[1]
+    for ours, theirs in zip(before, after, strict=True):
+        assert ours != theirs
+    bpy.ops.ed.undo()
+    assert parts() == before
+    bpy.context.scene.frame_set(7)
+    assert parts() == before
+    bpy.ops.ed.redo()
+    assert parts() == after
+    bpy.context.scene.frame_set(8)
+    (ob,) = (ob for ob in bpy.data.objects if ob.ocean_lod.is_ocean)
+    assert ocean_object.problem(ob) == ""
 
 
 def test_every_operator_that_changes_the_scene_has_an_undo_step():
