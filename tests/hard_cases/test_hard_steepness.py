@@ -5,10 +5,14 @@ import numpy as np
 
 from ocean_lod_addon.core.constants import GRAVITY
 from ocean_lod_addon.core.discretise import discretise
+from ocean_lod_addon.core.foam.whitecap_law import whitecap_coverage
+from ocean_lod_addon.core.foam_settings import Foam
 from ocean_lod_addon.core.gerstner import SMALLEST_JACOBIAN, sum_steepness, surface_points
 from ocean_lod_addon.core.kernel import FrameKernel
 from ocean_lod_addon.core.lod import Grid, level_anchors, undisturbed_positions
+from ocean_lod_addon.core.ocean import Ocean, Surface
 from ocean_lod_addon.core.optics.trochoid_slopes import mean_square_slope
+from ocean_lod_addon.core.ripple_settings import Ripples
 from ocean_lod_addon.core.sea import Sea, WaveSystem
 from ocean_lod_addon.core.waves import TWO_PI, WaveSet
 from tests.hard_cases.catalogue import FLOAT32_ROUNDING, FLOAT64_ROUNDING, hard_case
@@ -183,3 +187,51 @@ def test_a_surface_that_loops():
     order = np.argsort(x, kind="stable")
     naive = np.abs(np.maximum.accumulate(truth[order]) - truth[order]).max() / 32.0
     return float(naive), float(np.abs(ours - truth).max() / 32.0)
+
+
+def foam_of_kernel(sea, grid, time=3.0):
+    """Share of the area around each vertex of a plane that is white."""
+    surface = Surface(Ocean(sea, grid, ripples=Ripples(kind="off"), foam=Foam()))
+    placement, block = surface.placement(), surface.whitecaps.block
+    positions = np.empty((surface.vertex_count, 3), np.float32)
+    columns = np.empty((surface.vertex_count, block.columns), np.float32)
+    surface.positions(time, placement, positions, {block: columns})
+    foam = np.empty(surface.vertex_count, np.float32)
+    surface.whitecaps.foam(columns, foam)
+    return foam.astype(np.float64)
+
+
+@hard_case(
+    title="foam where a storm of choppiness 2 folds (J near 0 and below)",
+    truth="foam is a share of the area: 0 to 1",
+    naive="foam by the compression of the surface, 1 / J - 1",
+    error="foam outside of 0 to 1",
+    bound=3 * FLOAT32_ROUNDING,
+    because="at most 1 by its formula, which never divides by J; a product and a sum round",
+)
+def test_foam_at_folds():
+    jacobian = storm_points().jacobian
+    naive = 1.0 / np.abs(jacobian) - 1.0
+    foam = foam_of_kernel(
+        Sea(systems=(WaveSystem(wind_speed=40.0),), choppiness=2.0, wave_count=256), Grid(0.5, 256, 4)
+    )
+    assert foam.max() > 0.5, "this storm breaks somewhere"
+    return tuple(float(max(share.max() - 1.0, -share.min(), 0.0)) for share in (naive, foam))
+
+
+@hard_case(
+    title="foam where no wave is left that could break (compression of deviation 0)",
+    truth="the sea is evenly as white as the wind makes it",
+    naive="compression less its threshold, over a deviation of 0",
+    error="foam, relative",
+    bound=2 * FLOAT32_ROUNDING,
+    because="the wind's share, rounded once",
+)
+def test_foam_without_a_breaking_wave():
+    white = whitecap_coverage(15.0)
+    sea = Sea(systems=(WaveSystem(wind_speed=15.0),))
+    ours = foam_of_kernel(sea, Grid(cell_size=500.0, cells=16, levels=2))
+    still = np.zeros(3)
+    with np.errstate(invalid="ignore"):
+        naive = (still - still) / still.std()
+    return tuple(float(np.abs(foam / white - 1.0).max()) for foam in (naive, ours))
