@@ -161,7 +161,14 @@ _scratch = _Scratch()
 
 
 def in_threads(work: Callable[[object], object], pieces) -> None:
-    """Do `work` on all pieces, spread over the processor's cores, as far as NumPy frees the interpreter lock."""
+    """Do `work` on all pieces, spread over the processor's cores, as far as NumPy frees the interpreter lock.
+
+    To wake another thread takes some tenths of a millisecond: a single piece is not worth it.
+    """
+    pieces = list(pieces)
+    if len(pieces) == 1:
+        work(pieces[0])
+        return
     for _ in _threads().map(work, pieces):
         pass
 

@@ -23,6 +23,7 @@ from .knobs.registry import KNOBS
 from .ladders import Ladder
 from .pictures import Pictures
 from .prediction import Prediction
+from .steady import SteadyPrices
 
 NAME = "cost"
 HELP = "Measure what accuracy costs in time on this machine, and what a budget buys."
@@ -147,9 +148,10 @@ def _measure(options, output, with_blender):
     _print(f"Prices, found in {probe_seconds:.1f} s", report.price_lines(model.prices))
 
     whole = configurations.measure_configurations(model, rounds, with_blender)
-    tried = [budgets.try_budget(model, budget, with_blender) for budget in budgets.BUDGETS]
+    prices = SteadyPrices(lambda: _measured_model(with_blender)[0])
+    tried = [budgets.try_budget(prices, budget, with_blender) for budget in budgets.BUDGETS]
     _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
-    predictions, without_blas = _try_predictions(options, model, rounds, with_blender)
+    predictions, without_blas = _try_predictions(options, prices, rounds, with_blender)
 
     measured = []
     for knob in KNOBS:
@@ -182,15 +184,15 @@ def _measure(options, output, with_blender):
     )
 
 
-def _try_predictions(options, model, rounds, with_blender):
+def _try_predictions(options, prices, rounds, with_blender):
     """Predictions beside times, through Blender and by a contraction in NumPy alone; (None, None) if quick."""
     if not options.full:
         return None, None
-    predictions = prediction.try_model(model, rounds, None, with_blender)
+    predictions = prediction.try_model(prices, rounds, None, with_blender)
     where = "through Blender" if with_blender else "without Blender"
     _print(f"Predictions, {where}, by {fastest_contraction()}", report.prediction_lines(predictions))
     contraction = options.contraction or "einsum"
-    without_blas = prediction.try_model(probe(contraction), rounds, contraction, False)
+    without_blas = prediction.try_model(SteadyPrices(lambda: probe(contraction)), rounds, contraction, False)
     _print(f"Predictions without Blender, by {contraction}", report.prediction_lines(without_blas))
     return predictions, without_blas
 

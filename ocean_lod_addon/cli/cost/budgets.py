@@ -15,6 +15,7 @@ from ...core.sea import Sea
 from ..bench import in_blender
 from ..bench.timing import FRAMES_PER_SECOND
 from . import frames
+from .steady import SteadyPrices
 
 BUDGETS = (5e-3, 20e-3, 100e-3)
 """s"""
@@ -56,9 +57,12 @@ def choose_for(model: CostModel, budget: float) -> Choice:
     return choose(rungs, lambda rung: model.predict(frames.work(apply(rung.quality, SIZED))), budget)
 
 
-def try_budget(model: CostModel, budget: float, with_blender: bool) -> BudgetResult:
+def try_budget(prices: SteadyPrices, budget: float, with_blender: bool) -> BudgetResult:
     """Choose for a budget and time the frames."""
-    choice = choose_for(model, budget)
+    return prices.while_steady(lambda model: _try_choice(choose_for(model, budget), with_blender))
+
+
+def _try_choice(choice, with_blender):
     settings = apply(choice.rung.quality, SIZED)
     if not with_blender:
         return BudgetResult(choice, _median(frames.NumpyFrame(settings, None).contestant("frame")))

@@ -3,7 +3,6 @@
 
 from dataclasses import dataclass
 
-from ...core.cost.model import CostModel
 from ...core.foam_settings import Foam
 from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
@@ -11,6 +10,7 @@ from ...core.sea import Sea
 from ..bench import in_blender
 from ..bench.timing import measure
 from . import frames
+from .steady import SteadyPrices
 
 LIMIT = 0.20
 """A prediction is right within this share of the measured time."""
@@ -70,21 +70,27 @@ class Prediction:
         }
 
 
-def try_model(model: CostModel, rounds: int, contraction: str | None, with_blender: bool) -> list[Prediction]:
+def try_model(prices: SteadyPrices, rounds: int, contraction: str | None, with_blender: bool) -> list[Prediction]:
     """Predictions beside times: of whole frames through Blender, or of what NumPy does in them."""
-    return [_try_case(model, rounds, contraction, with_blender, *case) for case in CASES]
+    return [_try_case(prices, rounds, contraction, with_blender, *case) for case in CASES]
 
 
-def _try_case(model, rounds, contraction, with_blender, grid, waves, ripples, instants):
+def _try_case(prices, rounds, contraction, with_blender, grid, waves, ripples, instants):
     settings = frames.settings_of(Sea(wave_count=waves), grid, ripples, Foam(memory_steps=instants))
     name = f"{grid.vertex_count} vertices, {waves} waves, ripples {_text(ripples)}, foam {instants}"
-    predicted = model.total(frames.work(settings))
-    if with_blender:
-        with in_blender.fresh_data():
-            contestant = frames.BlenderOcean.of(settings).contestant(name)
-            return Prediction(name, predicted, _undisturbed(measure([contestant], rounds)[name]))
-    contestant = frames.NumpyFrame(settings, contraction).contestant(name)
-    return Prediction(name, predicted, _undisturbed(measure([contestant], rounds)[name]))
+
+    def timed(ocean):
+        contestant = ocean.contestant(name)
+        return prices.while_steady(
+            lambda model: Prediction(
+                name, model.total(frames.work(settings)), _undisturbed(measure([contestant], rounds)[name])
+            )
+        )
+
+    if not with_blender:
+        return timed(frames.NumpyFrame(settings, contraction))
+    with in_blender.fresh_data():
+        return timed(frames.BlenderOcean.of(settings))
 
 
 def _undisturbed(timing):

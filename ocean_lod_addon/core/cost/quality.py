@@ -40,7 +40,7 @@ class Quality:
 
 QUALITIES: dict[str, Quality] = {
     "draft": Quality(
-        "Draft", "To lay out a shot: waves are coarse and soon fade, ripples are roughness", 2.0, 0.375, "off", 1
+        "Draft", "To lay out a shot: waves are coarse and soon fade, ripples are roughness", 2.0, 0.25, "off", 1
     ),
     "preview": Quality("Preview", "To judge motion: ripples move, foam trails", 3.0, 1.0, "256", 4),
     "standard": Quality("Standard", "As the plane was sized for the shot", 4.0, 1.0, "512", 16),
