@@ -12,7 +12,7 @@ from ..core.framing import Framing
 from ..core.lod import Grid
 from ..core.plan import Facts, Plan, Settings, decide
 from ..core.ripple_settings import Ripples
-from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, frame_needs
+from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, fit_ripples, frame_needs
 from .arguments import real_number, resolution, whole_number
 from .setting_options import add_setting_options, given_settings
 
@@ -57,17 +57,19 @@ def preset_plan(options) -> Plan:
     """The plan for a preset's first shot, on the plane that `render` would make for it."""
     preset = presets.load(options.preset)
     needs = frame_needs(preset.shot.view(*options.resolution), options.resolution[0])
+    grid = fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE)
+    waves = discretise(preset.sea, grid.shortest_wavelength)
     settings = Settings(
         preset.sea,
-        fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE),
+        grid,
         Framing(),
         preset.material,
-        Ripples(),
+        fit_ripples(Ripples(), [needs], grid.shortest_wavelength, waves),
         Foam(**given_settings(options, Foam)),
         Effects(**given_settings(options, Effects)),
     )
     facts = Facts(engine=options.engine, shutter=options.shutter, samples=options.samples, camera=needs)
-    return decide(facts, settings, discretise(settings.sea, settings.grid.shortest_wavelength))
+    return decide(facts, settings, waves)
 
 
 def _blend_plan(options):

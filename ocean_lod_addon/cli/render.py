@@ -9,10 +9,12 @@ from pathlib import Path
 
 from ..core import presets
 from ..core.cost.quality import QUALITIES
+from ..core.discretise import discretise
 from ..core.errors import OceanError
 from ..core.lod import Grid
+from ..core.ripple_settings import Ripples
 from ..core.sea import LARGEST_SEED
-from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, frame_needs
+from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, fit_ripples, frame_needs
 from .arguments import FrameRange, frame_range, real_number, resolution, whole_number
 
 NAME = "render"
@@ -144,7 +146,10 @@ def _build(options):
     needs = frame_needs(placing.view_of(scene.camera, scene), scene.render.resolution_x)
     grid = fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE)
     sea = presets.with_seed(preset.sea, options.seed)
-    scene.collection.objects.link(ocean_object.create(scene, sea, grid, preset.material))
+    waves = discretise(sea, grid.shortest_wavelength)
+    ripples = fit_ripples(Ripples(), [needs], grid.shortest_wavelength, waves)
+    ocean = ocean_object.create(scene, sea, grid, preset.material, ripples=ripples)
+    scene.collection.objects.link(ocean)
     return scene
 
 

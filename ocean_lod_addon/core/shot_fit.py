@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plane that suits a shot: fine enough for the nearest water in frame, wide enough for the horizon."""
+"""The plane and the ripples that suit a shot: fine enough for the nearest water in frame, wide enough for the
+horizon."""
 
 import math
 from dataclasses import dataclass, replace
@@ -10,6 +11,9 @@ from .camera_view import CameraView, nearest_visible_water
 from .constants import EARTH_RADIUS
 from .errors import OceanError
 from .lod import CELLS_STEP, Grid
+from .parameters import parameters_of
+from .ripple_settings import Ripples
+from .waves import TWO_PI, WaveSet
 
 _MOST_CELLS, _FEWEST_CELLS = 1024, 64
 _MOST_LEVELS = 20
@@ -74,6 +78,40 @@ def fit(grid: Grid, needs: list[ShotNeeds], pixels_per_cell: float, highest_wave
     reach = max(_HIDDEN_BEYOND * (horizon_distance(camera) + horizon_distance(highest_wave)), _LEAST_REACH)
     levels = 1 + math.ceil(math.log2(reach / (0.5 * cells * cell_size)))
     return replace(grid, cell_size=cell_size, cells=cells, levels=min(max(levels, 1), _MOST_LEVELS))
+
+
+_RIPPLE_PIXELS = 2.0
+"""Of a shorter wave a pixel shows less than a third of the slope variance, and the BRDF the rest."""
+
+_HEIGHTS = 4.0
+"""Where the mesh is too coarse for a wave longer than this many heights of the lens, a pixel covers more water
+than the wave, for it looks at a grazing angle."""
+
+_RESOLVED_WAVES = 8.0
+"""From straight above nothing is foreshortened: ripples then also show the waves that the mesh shows in the middle
+of the frame and not at its edges, three octaves at most."""
+
+
+def fit_ripples(ripples: Ripples, needs: list[ShotNeeds], shortest_resolved: float, waves: WaveSet) -> Ripples:
+    """The ripples for a whole shot: `ripples` with another shortest and longest wavelength.
+
+    `shortest_resolved` is the shortest wave, m, of the plane that `fit` made; no ripples are longer than the
+    longest of `waves`, the sea's. Raises OceanError for an empty shot.
+    """
+    if not needs:
+        raise OceanError("the shot has no frames with a camera")
+    pixel = min(need.nearest * need.pixel_angle for need in needs)
+    limits = parameters_of(Ripples)
+    shortest = _within(limits["shortest_wavelength"], _RIPPLE_PIXELS * pixel)
+    longest = max(_HEIGHTS * max(need.height for need in needs), _RESOLVED_WAVES * shortest_resolved)
+    if len(waves):
+        longest = min(longest, TWO_PI / float(waves.wavenumber.min()))
+    longest = _within(limits["longest_wavelength"], max(longest, 4.0 * shortest))
+    return replace(ripples, shortest_wavelength=shortest, longest_wavelength=longest)
+
+
+def _within(parameter, value: float) -> float:
+    return min(max(value, parameter.minimum), parameter.maximum)
 
 
 CURVATURE_PIXELS = 2.0

@@ -32,7 +32,7 @@ FOOTPRINT_V = _number("Footprint Across View", "Variance of what a pixel covers 
 MESH_NORMAL = _vector("Mesh Normal", "Normal of the mesh in the object's axes")
 
 REST_POSITION = _vector("Rest Position", "Undisturbed x, y in m")
-TILES_PER_METRE = _number("Tiles per Metre", "One over the side of the square of water that the image shows", 1.0)
+CELLS_PER_METRE = _number("Cells per Metre", "One over the side of a cell of the grid", 1.0)
 SHIFT = Socket("Shift", "VECTOR", "Shift of the grid in cells; z is the number of the grid and a half")
 PLACE = _vector("Place", "Where to look at the image")
 WEIGHT = _number("Weight", "How much the look counts, before weights are normalised", 0.0, 1.0)
@@ -97,7 +97,7 @@ VIEW = GroupRecipe(
 def _build_look(graph: Graph):
     """The cell of the grid that the point is in, that cell's own place in the image, and the point's weight."""
     with graph.section("Cell"):
-        place = graph.input(REST_POSITION.name) * graph.input(TILES_PER_METRE.name) + graph.input(SHIFT.name)
+        place = graph.input(REST_POSITION.name) * graph.input(CELLS_PER_METRE.name) + graph.input(SHIFT.name)
         noise = graph.node(
             "ShaderNodeTexWhiteNoise",
             "the cell's own place",
@@ -109,13 +109,14 @@ def _build_look(graph: Graph):
         graph.output(WEIGHT.name, shading.blend_weight(x, y))
     with graph.section("Place in the image"):
         own_x, own_y, _ = graph.output_of(noise, "Color").components()
-        graph.output(PLACE.name, graph.vector(x + own_x, y + own_y, 0.0))
+        cell = 1.0 / shading.CELLS_PER_TILE
+        graph.output(PLACE.name, graph.vector(x * cell + own_x, y * cell + own_y, 0.0))
 
 
 LOOK = GroupRecipe(
     "Ocean LOD Ripple Look",
-    "2",
-    inputs=(REST_POSITION, TILES_PER_METRE, SHIFT),
+    "3",
+    inputs=(REST_POSITION, CELLS_PER_METRE, SHIFT),
     outputs=(PLACE, WEIGHT),
     build=_build_look,
 )

@@ -2,9 +2,10 @@
 """Node group "Ocean LOD Ripples": the bump level of one ocean.
 
 Per image of slopes, three looks at it: the water is covered by three square grids, shifted against each other by
-a third of a cell, and every cell looks at a place of its own in the image. Their weights fade to 0 at the border
-of a cell, so that no border shows, and are normalised so that the variance is the same everywhere; where one grid
-has a border, another has not. So the image never repeats.
+a third of a cell, and every cell looks at a place of its own in the image, of which it sees a quarter. Their
+weights fade to 0 at the border of a cell, so that no border shows, and are normalised so that the variance is the
+same everywhere; where one grid has a border, another has not. So the image never repeats: two cells may see the
+same part of it, but they are a small share of any picture.
 
 A look picks one texel, at random up to half a texel beside its place, so that the samples of a pixel see the image
 as linear interpolation would show it on average, and each of them slopes with all their variance. Interpolated
@@ -142,7 +143,7 @@ class _Builder:
         graph = self.graph
         inputs = {
             parts.REST_POSITION.name: place,
-            parts.TILES_PER_METRE.name: 1.0 / self.layout.tiles[number].size,
+            parts.CELLS_PER_METRE.name: shading.CELLS_PER_TILE / self.layout.tiles[number].size,
             parts.SHIFT.name: (grid / GRIDS, grid / GRIDS, GRIDS * number + grid + 0.5),
         }
         look = use_group(graph, parts.LOOK, inputs)
@@ -165,7 +166,7 @@ def ripples_recipe(name: str, layout: BumpLayout, images: Sequence) -> GroupReci
     description = repr((layout, [image.name for image in images]))
     return GroupRecipe(
         name,
-        "2 " + hashlib.blake2b(description.encode(), digest_size=8).hexdigest(),
+        "3 " + hashlib.blake2b(description.encode(), digest_size=8).hexdigest(),
         inputs=(SLOPE_VARIANCE, *variances, *extra),
         outputs=(SLOPE_VARIANCE, NORMAL),
         build=lambda graph: _Builder(graph, layout, images).build(),

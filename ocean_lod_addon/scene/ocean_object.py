@@ -21,6 +21,7 @@ from ..core.normals import surface_normals
 from ..core.ocean import Ocean, Surface
 from ..core.ocean_time import sea_time
 from ..core.plan import EFFECT_ATTRIBUTES, FOAM_ATTRIBUTE, NORMAL_ATTRIBUTE, VELOCITY_ATTRIBUTE, Plan
+from ..core.ripple_settings import Ripples
 from ..core.sea import Sea
 from ..nodes.pass_through import ensure_pass_through
 from . import bump, clock, foam, frame_times, ocean_material, placing, planning, properties
@@ -55,7 +56,9 @@ def _normals(vertex_count: int) -> np.ndarray:
     return np.empty((vertex_count, 3), np.float32)
 
 
-def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"):
+def create(
+    scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean", *, ripples: Ripples | None = None
+):
     """A new ocean object in the active collection, at its surface of the current frame. Raises OceanError."""
     ob = bpy.data.objects.new(name, bpy.data.meshes.new(name))
     try:
@@ -64,6 +67,7 @@ def create(scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean"
         properties.write_sea(sea, ob.ocean_lod)
         properties.write_grid(grid, ob.ocean_lod)
         properties.write_material(material, ob.ocean_lod)
+        properties.write_ripples(ripples or Ripples(), ob.ocean_lod)
         _add_pass_through_modifier(ob)
         _rebuild_and_move(ob, scene)
         planned = planning.PlannedOcean(ob, scene)

@@ -282,6 +282,12 @@ def write_grid(grid: Grid, properties) -> None:
         rna.write(grid, properties.grid)
 
 
+def write_ripples(ripples: Ripples, properties) -> None:
+    """Put settings of ripples into an object's properties; the caller refreshes the ocean."""
+    with many_changes():
+        rna.write(ripples, properties.ripples)
+
+
 def write_material(material: MaterialSettings, properties) -> None:
     """Put material settings into an object's properties; the caller refreshes the ocean."""
     with many_changes():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Size an ocean's plane for the scene's whole animation."""
+"""Size an ocean's plane and ripples for the scene's whole animation."""
 
 import math
 
@@ -7,7 +7,7 @@ import numpy as np
 
 from ..core.errors import OceanError
 from ..core.ocean import Surface
-from ..core.shot_fit import curvature_shows, fit, frame_needs
+from ..core.shot_fit import curvature_shows, fit, fit_ripples, frame_needs
 from . import ocean_object, placing, properties
 
 _MOST_FRAMES = 100
@@ -15,7 +15,7 @@ _MOST_FRAMES = 100
 
 
 def fit_to_shot(ob, context, pixels_per_cell: float) -> None:
-    """Give an ocean the cell size, cells, levels and curvature that its scene's camera path asks for.
+    """Give an ocean the plane, curvature and lengths of ripples that its scene's camera path asks for.
 
     Plays through the shot; progress shows at the cursor. Raises OceanError if no frame has a camera.
     """
@@ -43,6 +43,8 @@ def fit_to_shot(ob, context, pixels_per_cell: float) -> None:
     highest = 4.0 * math.sqrt(0.5 * float(np.sum(waves.amplitude**2)))
     grid = fit(ocean.grid, needs, pixels_per_cell, highest)
     properties.write_grid(grid, ob.ocean_lod)
+    ripples = properties.read_ripples(ob.ocean_lod)
+    properties.write_ripples(fit_ripples(ripples, needs, grid.shortest_wavelength, waves), ob.ocean_lod)
     with properties.many_changes():
         ob.ocean_lod.framing.curved_earth = curvature_shows(needs, grid.half_extent)
     ocean_object.refresh(ob, scene)

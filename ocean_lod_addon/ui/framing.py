@@ -10,7 +10,8 @@ from ..scene import ocean_object, shot_sizing
 
 
 class OBJECT_OT_ocean_lod_fit_to_shot(bpy.types.Operator):
-    """Size the cells, their number and the reach of the ocean for the camera's path through the whole animation"""
+    """Size the cells, their number, the reach of the ocean and the lengths of its ripples for the camera's path
+    through the whole animation"""
 
     bl_idname = "object.ocean_lod_fit_to_shot"
     bl_label = "Fit Plane to Shot"

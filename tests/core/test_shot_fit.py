@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.camera_view import CameraView
+from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.errors import OceanError
 from ocean_lod_addon.core.lod import Grid
-from ocean_lod_addon.core.shot_fit import curvature_shows, fit, frame_needs, horizon_distance
+from ocean_lod_addon.core.ripple_settings import Ripples
+from ocean_lod_addon.core.sea import Sea
+from ocean_lod_addon.core.shot_fit import curvature_shows, fit, fit_ripples, frame_needs, horizon_distance
 
 RESOLUTION = 1920
 
@@ -72,3 +75,35 @@ def test_curvature_shows_from_a_height_on():
 def test_a_shot_without_frames_is_refused():
     with pytest.raises(OceanError, match="no frames"):
         fit(Grid(), [], 8.0, 3.0)
+
+
+def fitted_ripples(*views, kind="spectral"):
+    needs = [frame_needs(view, RESOLUTION) for view in views]
+    grid = fit(Grid(), needs, 8.0, 3.0)
+    return fit_ripples(Ripples(kind=kind), needs, grid.shortest_wavelength, discretise(Sea(), 1.0)), grid
+
+
+def test_ripples_begin_at_two_pixels_of_the_nearest_water():
+    """Shorter waves show less than a third of their slope variance."""
+    nearest = 2.0 / math.sin(math.atan(18 / 35 * 9 / 16))
+    ripples, _ = fitted_ripples(level_view(2.0), level_view(50.0))
+    assert ripples.shortest_wavelength == pytest.approx(2.0 * nearest * 36 / 35 / 1920, rel=1e-6)
+
+
+def test_ripples_reach_over_what_the_mesh_leaves_out():
+    """From 2 m as from 2 km, in any frame of the shot, but no further than the sea's own longest wave."""
+    low, _ = fitted_ripples(level_view(2.0))
+    assert low.longest_wavelength == pytest.approx(8.0)
+    assert fitted_ripples(level_view(2.0), level_view(10.0))[0].longest_wavelength == pytest.approx(40.0)
+    high, grid = fitted_ripples(level_view(2000.0, pitch=math.pi / 2))
+    longest = 2.0 * math.pi / discretise(Sea(), 1.0).wavenumber.min()
+    assert grid.shortest_wavelength < high.longest_wavelength == pytest.approx(longest)
+
+
+@pytest.mark.parametrize("lens", [8.0, 35.0, 5000.0])
+@pytest.mark.parametrize("height", [0.0, 0.3, 10e3])
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO", "PANO"])
+def test_every_camera_gets_valid_ripples(lens, height, kind):
+    """Settings that are not allowed raise an error; the rest of what the artist chose stays."""
+    ripples, _ = fitted_ripples(level_view(height, lens, pitch=0.1, kind=kind), kind="random")
+    assert ripples.kind == "random"

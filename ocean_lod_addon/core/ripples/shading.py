@@ -21,6 +21,10 @@ GRAZING_COSINE = 1e-3
 HORIZONTAL_FLOOR = 1e-6
 """Keeps the horizontal direction of view finite straight above."""
 
+CELLS_PER_TILE = 2
+"""Cells of a grid along the side of the square of water that an image shows. If a cell saw the whole image, two
+cells would see the same water; cells of less than four of the longest waves would cut waves short."""
+
 VISIBLE_SHARE = 0.98
 """A slope reaches at most this share of the slope at which it is seen edge-on."""
 
