@@ -22,6 +22,7 @@ def main():
     aerial = parser.add_argument_group("repetition")
     aerial.add_argument("--pixels", type=int, default=512, help="along each side of the picture (%(default)s)")
     dolly = parser.add_argument_group("flicker")
+    dolly.add_argument("--width", type=int, default=960, help="of the whole frame, in pixels (%(default)s)")
     dolly.add_argument("--frames", type=int, default=4)
     dolly.add_argument("--rows", type=int, default=12, help="rows of pixels below the horizon (%(default)s)")
     dolly.add_argument("--columns", type=int, default=64, help="columns of pixels (%(default)s)")

@@ -22,7 +22,6 @@ from .scenes import add_ocean, luminance, new_scene, save_gray
 
 LIMIT = 1.5
 SUPERSAMPLING = 8
-WIDTH, HEIGHT = 960, 540  # pixels of the whole frame, of which a band is rendered
 _BELOW_HORIZON = 2  # pixels
 _DOLLY = 0.05  # m in a frame
 _EXPOSURE = -3.0  # stops: for the glitter, which would be white all over and hide what changes
@@ -30,8 +29,10 @@ _EXPOSURE = -3.0  # stops: for the glitter, which would be white all over and hi
 
 @dataclass(frozen=True)
 class Band:
-    """What is looked at: rows below the horizon, columns in the middle of the frame, and how many frames."""
+    """What is looked at: of frames `width` pixels wide, rows below the horizon and columns in the middle; and how
+    many frames."""
 
+    width: int
     rows: int
     columns: int
     frames: int
@@ -51,14 +52,15 @@ def change(engine: str, band: Band, samples: int, factor: int, save: Path | None
     """The changes in frames of `factor` x `factor` as many pixels, scaled down."""
     preset = presets.load("moderate")
     shot = Shot(camera_height=3.0, camera_pitch=0.0, exposure=_EXPOSURE)
-    scene = new_scene(shot, engine, WIDTH * factor, HEIGHT * factor, samples)
-    add_ocean(scene, preset.sea, WIDTH, preset.material)
+    height = band.width * 9 // 16
+    scene = new_scene(shot, engine, band.width * factor, height * factor, samples)
+    add_ocean(scene, preset.sea, band.width, preset.material)
     render = scene.render
     render.use_border = render.use_crop_to_border = True
-    half = 0.5 * band.columns / WIDTH
+    half = 0.5 * band.columns / band.width
     render.border_min_x, render.border_max_x = 0.5 - half, 0.5 + half
-    top = 0.5 - _BELOW_HORIZON / HEIGHT
-    render.border_min_y, render.border_max_y = top - band.rows / HEIGHT, top
+    top = 0.5 - _BELOW_HORIZON / height
+    render.border_min_y, render.border_max_y = top - band.rows / height, top
     seeds = (1, 2) if engine == "CYCLES" else (1,)
     films = []
     for seed in seeds:
@@ -81,7 +83,7 @@ def change(engine: str, band: Band, samples: int, factor: int, save: Path | None
 
 def run(options) -> None:
     """Print the change of the frames, of the reference, and their ratio, and save pictures and numbers."""
-    band = Band(options.rows, options.columns, options.frames)
+    band = Band(options.width, options.rows, options.columns, options.frames)
     folder = Path(options.save) if options.save else None
     found = {}
     for name, factor in (("frames", 1), ("reference", SUPERSAMPLING)):
