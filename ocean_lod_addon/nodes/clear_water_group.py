@@ -30,8 +30,8 @@ from .water_group import (
     PARTS,
     SKEWED_SOCKETS,
     WATER_SOCKETS,
-    body,
     cycles_reflection,
+    eevee_body,
     eevee_reflection,
     eevee_sunlit_body,
     surface,
@@ -97,7 +97,7 @@ def _build(graph: Graph, sockets, sun: GroupRecipe):
         seen = values | {WATER_COLOR.name: values[WATER_COLOR.name].times(deep)}
         refraction = _eevee_refraction(graph, values, transmittance)
     with graph.section("EEVEE"):
-        below = (refraction, body(graph, seen), eevee_sunlit_body(graph, seen))
+        below = (refraction, eevee_body(graph, seen), eevee_sunlit_body(graph, seen))
         eevee = graph.add_shaders(*eevee_reflection(graph, values, sun), *below)
     graph.output(CYCLES.name, cycles)
     graph.output(EEVEE.name, eevee)
@@ -107,7 +107,7 @@ def _build(graph: Graph, sockets, sun: GroupRecipe):
 def _recipe(name, sockets, sun):
     return GroupRecipe(
         name,
-        "4",
+        "5",
         sockets,
         (CYCLES, EEVEE, VOLUME),
         lambda graph: _build(graph, sockets, sun),

@@ -10,7 +10,15 @@ from ..core.optics.reflected_share import reflected_share
 from ..core.optics.smith import slope_spread
 from .graph import Graph, GraphOps
 from .groups import GroupRecipe
-from .sockets import MAJOR_VARIANCE, MINOR_VARIANCE, NORMAL, REFLECTED_SHARE, TANGENT
+from .sockets import (
+    MAJOR_VARIANCE,
+    MINOR_VARIANCE,
+    NORMAL,
+    REFLECTED_SHARE,
+    TANGENT,
+    VIEW_COSINE,
+    VIEW_SPREAD,
+)
 from .surface_frame import SurfaceFrame
 
 
@@ -26,12 +34,14 @@ def _build(graph: Graph):
     with graph.section("Reflected share"):
         result = reflected_share(ops, cos_view, s_v, WATER_REFRACTIVE_INDEX)
     graph.output(REFLECTED_SHARE.name, result)
+    graph.output(VIEW_COSINE.name, cos_view)
+    graph.output(VIEW_SPREAD.name, s_v)
 
 
 REFLECTED_SHARE_OF_SLOPES = GroupRecipe(
     "Ocean LOD Reflected Share",
-    "2",
+    "3",
     inputs=(MAJOR_VARIANCE, MINOR_VARIANCE, TANGENT, NORMAL),
-    outputs=(REFLECTED_SHARE,),
+    outputs=(REFLECTED_SHARE, VIEW_COSINE, VIEW_SPREAD),
     build=_build,
 )

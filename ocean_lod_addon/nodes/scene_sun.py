@@ -10,6 +10,11 @@ it does reflect in the ocean's Glossy closure as well, in a round blob; a shader
 by, so `claim_sun` takes the highlights from the light itself: Specular 0, which Cycles ignores. Other shiny
 objects then lose its highlight in EEVEE, too; `release_sun` gives it back. Where the formula replaces the closure
 in Cycles the light becomes invisible to glossy rays.
+
+**A sky brighter than 10.** A physical sky is, and EEVEE by default cuts reflected light off there, and takes what
+is brighter out of the world to make a sun of its own, which the sea would reflect in one more blob. So `claim_sun`
+turns both off where the world is a Sky Texture: `clamp_surface_indirect` of the scene and `sun_threshold` of the
+world.
 """
 
 import math
@@ -27,6 +32,12 @@ SPECULAR_KEY = "ocean_lod_specular_factor"
 
 GLOSSY_KEY = "ocean_lod_visible_glossy"
 """Custom property of a claimed light's object: whether glossy rays saw it before."""
+
+CLAMP_KEY = "ocean_lod_clamp_surface_indirect"
+"""Custom property of a scene under a claimed sky: its limit of indirect light in EEVEE before."""
+
+THRESHOLD_KEY = "ocean_lod_sun_threshold"
+"""Custom property of a claimed world: its sun threshold before."""
 
 
 def scene_sun(scene: bpy.types.Scene) -> Sun | None:
@@ -59,11 +70,8 @@ def light_sun(lamp: bpy.types.Object) -> Sun:
 
 def sky_sun(world: bpy.types.World | None) -> Sun | None:
     """The disc of the world's Sky Texture, or None where there is none, or none that can be known."""
-    background = _source(_world_output(world), "Surface")
-    sky = _source(background, "Color")
-    if background is None or background.bl_idname != "ShaderNodeBackground" or background.inputs[1].is_linked:
-        return None
-    if sky is None or sky.bl_idname != "ShaderNodeTexSky":
+    background, sky = _background_and_sky(world)
+    if sky is None or background.inputs["Strength"].is_linked:
         return None
     irradiance = _disc_irradiance(sky)
     if irradiance is None:
@@ -76,6 +84,15 @@ def sky_sun(world: bpy.types.World | None) -> Sun | None:
     )
     irradiance = irradiance * sky.sun_intensity * background.inputs["Strength"].default_value
     return Sun(direction, tuple(map(float, irradiance)), sky.sun_size, shines_in_eevee=False)
+
+
+def _background_and_sky(world):
+    """The world's Background and the Sky Texture that is linked straight into it; None for what there is not."""
+    background = _source(_world_output(world), "Surface")
+    if background is None or background.bl_idname != "ShaderNodeBackground":
+        return None, None
+    sky = _source(background, "Color")
+    return background, sky if sky is not None and sky.bl_idname == "ShaderNodeTexSky" else None
 
 
 def _disc_irradiance(sky):
@@ -120,29 +137,37 @@ def _emission(tree):
 
 
 def claim_sun(scene: bpy.types.Scene, settings: MaterialSettings) -> None:
-    """Leave the reflection of the scene's Sun lights to the ocean's formula where it is used."""
+    """Leave the scene's sun to the ocean's formula where it is used, and let EEVEE reflect all of the sky."""
     for lamp in sun_lights(scene):
-        if SPECULAR_KEY not in lamp.data:
-            lamp.data[SPECULAR_KEY] = lamp.data.specular_factor
-        lamp.data.specular_factor = 0.0
+        _claim(lamp.data, SPECULAR_KEY, lamp.data, "specular_factor", 0.0)
         if settings.sun_model == "formula":
-            if GLOSSY_KEY not in lamp:
-                lamp[GLOSSY_KEY] = lamp.visible_glossy
-            lamp.visible_glossy = False
+            _claim(lamp, GLOSSY_KEY, lamp, "visible_glossy", False)
         else:
-            _release_glossy(lamp)
+            _release(lamp, GLOSSY_KEY, lamp, "visible_glossy")
+    if _background_and_sky(scene.world)[1] is not None:
+        _claim(scene, CLAMP_KEY, scene.eevee, "clamp_surface_indirect", 0.0)
+        _claim(scene.world, THRESHOLD_KEY, scene.world, "sun_threshold", 0.0)
 
 
 def release_sun(scene: bpy.types.Scene) -> None:
     """Undo `claim_sun`."""
     for lamp in scene.objects:
-        if lamp.type == "LIGHT" and SPECULAR_KEY in lamp.data:
-            lamp.data.specular_factor = lamp.data[SPECULAR_KEY]
-            del lamp.data[SPECULAR_KEY]
-        _release_glossy(lamp)
+        if lamp.type == "LIGHT":
+            _release(lamp.data, SPECULAR_KEY, lamp.data, "specular_factor")
+            _release(lamp, GLOSSY_KEY, lamp, "visible_glossy")
+    _release(scene, CLAMP_KEY, scene.eevee, "clamp_surface_indirect")
+    if scene.world is not None:
+        _release(scene.world, THRESHOLD_KEY, scene.world, "sun_threshold")
 
 
-def _release_glossy(lamp):
-    if GLOSSY_KEY in lamp:
-        lamp.visible_glossy = bool(lamp[GLOSSY_KEY])
-        del lamp[GLOSSY_KEY]
+def _claim(memory, key, owner, name, value):
+    """Set a property, after `memory` has learnt what it was."""
+    if key not in memory:
+        memory[key] = getattr(owner, name)
+    setattr(owner, name, value)
+
+
+def _release(memory, key, owner, name):
+    if key in memory:
+        setattr(owner, name, type(getattr(owner, name))(memory[key]))
+        del memory[key]

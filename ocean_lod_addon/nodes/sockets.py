@@ -52,6 +52,17 @@ REFLECTED_SHARE = Socket(
     1.0,
     "FACTOR",
 )
+VIEW_COSINE = Socket(
+    "View Cosine", "FLOAT", "Cosine of the angle between the normal and the direction to the viewer", 1.0, 0.0, 1.0
+)
+VIEW_SPREAD = Socket(
+    "View Spread",
+    "FLOAT",
+    "Standard deviation of the slopes along the view, times the sine of the view angle. Dimensionless",
+    0.1,
+    0.0,
+    1.0,
+)
 WATER_COLOR = Socket(
     "Water Color",
     "COLOR",

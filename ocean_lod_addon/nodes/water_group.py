@@ -6,6 +6,7 @@ comes with Gaussian slopes and with skewed ones. The parts hand on the values th
 name.
 """
 
+from ..core.optics.eevee_closures import HALF_COLOR_STEP
 from .body_group import WATER_BODY
 from .graph import Graph, GraphOps, Shader, Vector
 from .groups import GroupRecipe, use_group
@@ -111,6 +112,13 @@ def eevee_reflection(graph: Graph, values: dict, sun: GroupRecipe) -> tuple[Shad
     return use_group(graph, SKY_REFLECTION, values)[BSDF.name], use_group(graph, sun, values)[BSDF.name]
 
 
+def eevee_body(graph: Graph, values: dict) -> Shader:
+    """The body as EEVEE must be told it, which cuts off its dark color."""
+    step = graph.vector(*(3 * [HALF_COLOR_STEP]))
+    color = graph.label(values[WATER_COLOR.name] + step, "color as EEVEE stores it")
+    return body(graph, values | {WATER_COLOR.name: color})
+
+
 def eevee_sunlit_body(graph: Graph, values: dict) -> Shader:
     """The body in the light of a sun that EEVEE leaves out."""
     missing = values[SUN_IRRADIANCE.name] * values[MISSING_SUN.name]
@@ -124,7 +132,7 @@ def _build(graph: Graph, sockets, sun: GroupRecipe):
     with graph.section("Cycles"):
         cycles = graph.add_shaders(*cycles_reflection(graph, values, sun), body(graph, values))
     with graph.section("EEVEE"):
-        below = (body(graph, values), eevee_sunlit_body(graph, values))
+        below = (eevee_body(graph, values), eevee_sunlit_body(graph, values))
         eevee = graph.add_shaders(*eevee_reflection(graph, values, sun), *below)
     graph.output(CYCLES.name, cycles)
     graph.output(EEVEE.name, eevee)
@@ -132,7 +140,7 @@ def _build(graph: Graph, sockets, sun: GroupRecipe):
 
 def _recipe(name, sockets, sun):
     return GroupRecipe(
-        name, "8", sockets, (CYCLES, EEVEE), lambda graph: _build(graph, sockets, sun), needs=(*PARTS, sun)
+        name, "9", sockets, (CYCLES, EEVEE), lambda graph: _build(graph, sockets, sun), needs=(*PARTS, sun)
     )
 
 

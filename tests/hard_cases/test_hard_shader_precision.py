@@ -84,7 +84,7 @@ def test_closure_sockets_at_their_ends():
     naive="cot theta / sigma",
     error="reflected shares outside or no number, share",
     bound=0.0,
-    because="the slope spread is kept above 0, the cotangent below 100 sigma",
+    because="the slope spread is kept above 0, the effective cosine within 0 and 1",
 )
 def test_the_reflected_share_at_its_ends():
     cosines, sigmas = np.float32([0.0, 1e-30, 1e-6, 0.5, 1.0 - 2.0**-24, 1.0]), np.float32([0.0, 1e-6, 0.1, 0.7])

@@ -99,6 +99,20 @@ def test_claiming_a_sun_twice_and_releasing_it_gives_it_back():
     assert lamp.data.specular_factor == 0.75
 
 
+def test_eevee_reflects_all_of_a_claimed_sky_and_gets_its_limits_back():
+    scene = bpy.context.scene
+    limit = scene.eevee.clamp_surface_indirect
+    claim_sun(scene, MaterialSettings())
+    assert scene.eevee.clamp_surface_indirect == limit > 0.0  # no sky, no claim
+    add_sky()
+    scene.world.sun_threshold = 12.0
+    for _ in range(2):
+        claim_sun(scene, MaterialSettings())
+    assert scene.eevee.clamp_surface_indirect == scene.world.sun_threshold == 0.0
+    release_sun(scene)
+    assert (scene.eevee.clamp_surface_indirect, scene.world.sun_threshold) == (limit, 12.0)
+
+
 def test_the_material_takes_the_sun_and_loses_it():
     material = ensure_material("Ocean", MaterialSettings())
     sockets = material.node_tree.nodes[WATER.name].inputs

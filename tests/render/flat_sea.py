@@ -5,6 +5,7 @@ Each strip has a slope variance of its own and fills one column of the picture; 
 view, and the sun is a point. What a pixel must show is then a formula of a few numbers, without sampling noise.
 """
 
+import itertools
 import math
 
 import bpy
@@ -27,6 +28,21 @@ def slope_tensor(sigma_major: float, sigma_minor: float, degrees: float = 0.0) -
     c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
     major, minor = sigma_major**2, sigma_minor**2
     return major * c * c + minor * s * s, major * s * s + minor * c * c, (major - minor) * c * s
+
+
+def mesh_with_variances(material, polygons, tensors):
+    """A mesh of separate polygons, each with one slope variance tensor."""
+    corners, faces, values = [], [], []
+    for polygon, tensor in zip(polygons, tensors, strict=True):
+        faces.append(range(len(corners), len(corners) + len(polygon)))
+        corners += polygon
+        values += list(tensor) * len(polygon)
+    mesh = bpy.data.meshes.new("Sea")
+    mesh.from_pydata(corners, [], faces)
+    attribute = mesh.attributes.new(SLOPE_VARIANCE_ATTRIBUTE, "FLOAT_VECTOR", "POINT")
+    attribute.data.foreach_set("vector", np.array(values, np.float32))
+    mesh.materials.append(material)
+    return mesh
 
 
 class FlatSea:
@@ -52,28 +68,42 @@ class FlatSea:
             world.use_nodes = True
         world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.0
 
-    def set_sky(self, radiance: float):
-        """A uniform sky."""
-        background = self.scene.world.node_tree.nodes["Background"]
+    def set_sky(self, radiance: float, falloff: float | None = None):
+        """A uniform sky; or one of radiance (1 - falloff sin(elevation)), black below the horizon."""
+        tree = self.scene.world.node_tree
+        background = tree.nodes["Background"]
         background.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
         background.inputs["Strength"].default_value = radiance
+        if falloff is None:
+            return
+        coordinates, separate = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeSeparateXYZ")
+        above, fall, product = (tree.nodes.new("ShaderNodeMath") for _ in range(3))
+        above.operation, fall.operation, product.operation = "GREATER_THAN", "MULTIPLY_ADD", "MULTIPLY"
+        above.inputs[1].default_value = 0.0
+        fall.inputs[1].default_value, fall.inputs[2].default_value = -falloff, 1.0
+        tree.links.new(coordinates.outputs["Generated"], separate.inputs[0])
+        for node in (above, fall):
+            tree.links.new(separate.outputs["Z"], node.inputs[0])
+        for index, node in enumerate((above, fall)):
+            tree.links.new(node.outputs[0], product.inputs[index])
+        tree.links.new(product.outputs[0], background.inputs["Color"])
+
+    def set_physical_sky(self, elevation_degrees: float):
+        """Blender's own sky with a sun in front of the camera, the disc itself left out."""
+        tree = self.scene.world.node_tree
+        background, sky = tree.nodes["Background"], tree.nodes.new("ShaderNodeTexSky")
+        sky.sun_disc, sky.sun_elevation = False, math.radians(elevation_degrees)
+        sky.sun_rotation = math.radians(90.0)
+        tree.links.new(sky.outputs[0], background.inputs["Color"])
+        background.inputs["Strength"].default_value = 1.0
 
     def _add_strips(self, material, tensors):
-        count = len(tensors)
-        edges = 0.5 * count - np.arange(count + 1)  # from left to right in the picture, which looks along +x
-        corners, faces, values = [], [], []
-        for index, tensor in enumerate(tensors):
-            left, right = edges[index], edges[index + 1]
-            first = len(corners)
-            corners += [(x * STRIP_LENGTH, y, 0.0) for x, y in ((-1, left), (-1, right), (1, right), (1, left))]
-            faces.append(range(first, first + 4))
-            values += list(tensor) * 4
-        mesh = bpy.data.meshes.new("Sea")
-        mesh.from_pydata(corners, [], faces)
-        attribute = mesh.attributes.new(SLOPE_VARIANCE_ATTRIBUTE, "FLOAT_VECTOR", "POINT")
-        attribute.data.foreach_set("vector", np.array(values, np.float32))
-        mesh.materials.append(material)
-        self.sea = bpy.data.objects.new("Sea", mesh)
+        edges = 0.5 * len(tensors) - np.arange(len(tensors) + 1)  # from left to right in the picture
+        strips = [
+            [(x * STRIP_LENGTH, y, 0.0) for x, y in ((-1, left), (-1, right), (1, right), (1, left))]
+            for left, right in itertools.pairwise(edges)
+        ]
+        self.sea = bpy.data.objects.new("Sea", mesh_with_variances(material, strips, tensors))
         self.scene.collection.objects.link(self.sea)
 
     def look_along_x(self, elevation_degrees: float) -> np.ndarray:
@@ -94,6 +124,14 @@ class FlatSea:
 
     def render_cycles(self, path, samples=1, bounces=1) -> np.ndarray:
         """Linear RGB of each column, shape (columns, 3)."""
+        return self.picture_of_cycles(path, samples, bounces).mean(axis=0)
+
+    def render_eevee(self, path, samples=1) -> np.ndarray:
+        """Linear RGB of each column, shape (columns, 3)."""
+        return self.picture_of_eevee(path, samples).mean(axis=0)
+
+    def picture_of_cycles(self, path, samples=1, bounces=1) -> np.ndarray:
+        """Linear RGB of each pixel, shape (rows from below, columns, 3)."""
         cycles = self.scene.cycles
         self.scene.render.engine = "CYCLES"
         cycles.samples, cycles.max_bounces = samples, bounces
@@ -101,8 +139,8 @@ class FlatSea:
         cycles.pixel_filter_type, cycles.filter_width = "GAUSSIAN", 0.01
         return self._render(path)
 
-    def render_eevee(self, path, samples=1) -> np.ndarray:
-        """Linear RGB of each column, shape (columns, 3)."""
+    def picture_of_eevee(self, path, samples=1) -> np.ndarray:
+        """Linear RGB of each pixel, shape (rows from below, columns, 3)."""
         self.scene.render.engine = "BLENDER_EEVEE_NEXT" if bpy.app.version < (5, 0, 0) else "BLENDER_EEVEE"
         self.scene.eevee.taa_render_samples = samples
         self.scene.render.filter_size = 0.01
@@ -118,4 +156,4 @@ class FlatSea:
         image.pixels.foreach_get(pixels)
         picture = pixels.reshape(image.size[1], image.size[0], -1)[:, :, :3].astype(np.float64)
         bpy.data.images.remove(image)
-        return picture.mean(axis=0)
+        return picture

@@ -7,13 +7,23 @@ import bpy
 import numpy as np
 import pytest
 
+from ocean_lod_addon.core.constants import WATER_REFRACTIVE_INDEX
 from ocean_lod_addon.core.material_settings import MaterialSettings
+from ocean_lod_addon.core.ops import NumpyOps
+from ocean_lod_addon.core.optics.reflected_share import reflected_light_reference
+from ocean_lod_addon.core.optics.slope_density import GaussianSlopes
 from ocean_lod_addon.nodes.material import ensure_material, set_sun
 from ocean_lod_addon.nodes.reflection_group import HAS_EXACT_FRESNEL
 from ocean_lod_addon.nodes.scene_sun import claim_sun, scene_sun
+from tests.render.fan_sea import FanSea
 from tests.render.flat_sea import FlatSea, direction, slope_tensor
 
 pytestmark = pytest.mark.render
+
+OPS = NumpyOps()
+
+ROUGHNESSES = (0.05, 0.1, 0.15, 0.2, 0.25)
+SLOPES = [GaussianSlopes(sigma, sigma) for sigma in ROUGHNESSES]
 
 TENSORS = [slope_tensor(sigma, sigma) for sigma in (0.1, 0.15, 0.2, 0.25)]
 TENSORS += [slope_tensor(0.18, 0.15, 0), slope_tensor(0.18, 0.15, 90), slope_tensor(0.2, 0.13, 40)]
@@ -41,13 +51,45 @@ def give_sun(sea, to_sun, irradiance):
     set_sun(material, scene_sun(sea.scene))
 
 
+@pytest.mark.parametrize(("falloff", "tolerance"), [(None, 0.07), (0.8, 0.15)])
+def test_eevee_reflects_the_sky_as_the_facets_do(falloff, tolerance, tmp_path):
+    """Truth: the quadrature of the BRDF. Under a uniform sky the fit of the share shows (6 %), and 1 % of EEVEE's
+    probe; under one that falls to a fifth from horizon to zenith, the direction that EEVEE looks in, too.
+    """
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    black = MaterialSettings(tint_red=0.0, tint_green=0.0, tint_blue=0.0)
+    sea = FanSea(ensure_material("Ocean", black), [slope_tensor(sigma, sigma) for sigma in ROUGHNESSES])
+    sea.set_sky(1.0, falloff)
+    eevee = sea.picture_of_eevee(tmp_path / "sea.exr", samples=4)[::4, :, 1]
+    lights = [
+        [reflected_light_reference(OPS, tuple(view), slopes, WATER_REFRACTIVE_INDEX) for view, slopes in row]
+        for row in (zip(views, SLOPES, strict=True) for views in sea.to_viewer[::4])
+    ]
+    fall = falloff or 0.0
+    truth = np.array([[share * (1.0 - fall * to_light[2]) for share, to_light in row] for row in lights])
+    assert eevee == pytest.approx(truth, rel=tolerance)
+    assert np.mean(eevee / truth) == pytest.approx(1.0, abs=tolerance / 3.0)
+
+
 def test_sky_and_body_agree(sea, tmp_path):
-    """Under a uniform sky: the reflected share of the fit against what Cycles integrates."""
+    """Under a uniform sky, which shows the reflected share and what it leaves to the water."""
     sea.set_sky(1.0)
     sea.look_along_x(15.0)
     cycles = sea.render_cycles(tmp_path / "sea.exr", samples=256, bounces=4)
-    eevee = sea.render_eevee(tmp_path / "sea.exr", samples=2)
+    eevee = sea.render_eevee(tmp_path / "sea.exr", samples=4)
+    tolerance = 0.06 if HAS_EXACT_FRESNEL else SCHLICK_TOLERANCE
+    assert eevee == pytest.approx(cycles, rel=tolerance)
+
+
+def test_a_bright_physical_sky_is_not_cut_off(sea, tmp_path):
+    """Its radiance passes 10, where EEVEE by default cuts off what is reflected: half of this sea's light."""
+    sea.set_physical_sky(40.0)
+    sea.look_along_x(5.0)
+    claim_sun(sea.scene, MaterialSettings())
+    cycles = sea.render_cycles(tmp_path / "sea.exr", samples=256).mean(axis=1)
+    eevee = sea.render_eevee(tmp_path / "sea.exr", samples=4).mean(axis=1)
     tolerance = MEAN_RADIANCE_TOLERANCE if HAS_EXACT_FRESNEL else SCHLICK_TOLERANCE
+    assert cycles.max() > 1.0
     assert eevee == pytest.approx(cycles, rel=tolerance)
 
 
