@@ -7,8 +7,8 @@ from ..core.foam_settings import Foam
 from ..core.plan import FOAM_NODE
 from .foam_group import COVERAGE, CYCLES_BELOW, EEVEE_BELOW, FOAM, FOAM_COLOR, GRAIN
 from .groups import ensure_group, remove_unused
-from .layout import arrange
-from .material import NODE_NAME, write_changed, write_socket
+from .layout import place_beside
+from .material import NODE_NAME, own_nodes, write_changed, write_socket
 from .sockets import CYCLES, EEVEE, MISSING_SUN, SUN_DIRECTION, SUN_IRRADIANCE
 
 FOAM_NODE_NAME = FOAM_NODE
@@ -51,13 +51,12 @@ def _insert_node(tree, group):
     node = tree.nodes.new("ShaderNodeGroup")
     node.name = node.label = FOAM_NODE_NAME
     node.node_tree = group
-    node.width = 240.0
     for surface, below in _THROUGH:
         targets = [link.to_socket for link in water.outputs[surface.name].links]
         tree.links.new(water.outputs[surface.name], node.inputs[below.name])
         for target in targets:
             tree.links.new(node.outputs[surface.name], target)
-    arrange(tree)
+    place_beside(tree, node, water, own_nodes(tree), left=False)
 
 
 def hide_foam(material: bpy.types.Material) -> None:

@@ -4,6 +4,9 @@
 Every frame is laid out by itself: a node stands one column to the right of the last node it depends on,
 and in its column at the height of what feeds it. The frames, and the nodes outside any, are then laid out
 in the same way as blocks.
+
+Where an artist may have nodes of their own, a node that comes later is put beside another (`place_beside`), and
+theirs stay where they are.
 """
 
 from dataclasses import dataclass
@@ -62,7 +65,8 @@ def fitting_width(node) -> float:
     names = [_SOCKET_MARGIN + _CHARACTER_WIDTH * _characters(socket) for socket in (*node.inputs, *node.outputs)]
     title = _TITLE_MARGIN + _CHARACTER_WIDTH * len(node.label)
     tree = getattr(node, "node_tree", None)
-    selector = _SELECTOR_MARGIN + _CHARACTER_WIDTH * len(tree.name) if tree else 0.0
+    field = tree.name if tree else getattr(node, "attribute_name", "")
+    selector = _SELECTOR_MARGIN + _CHARACTER_WIDTH * len(field) if field else 0.0
     return max(node.width, title, selector, *names)
 
 
@@ -99,6 +103,40 @@ def arrange(tree) -> None:
         for node in block.nodes:
             x, y = node.location
             node.location = (x + block.x, y + block.y)
+
+
+def place_beside(tree, node, neighbour, movable, left: bool) -> None:
+    """Put `node` left or right of `neighbour`, at its height.
+
+    Those of the nodes `movable` that stand there move out of the way, sideways. All others stay, and `node` goes
+    below the ones it would lie on.
+    """
+    node.width, node.select = fitting_width(node), False
+    x, y = neighbour.location_absolute
+    sideways = -1.0 if left else 1.0
+    x += -(node.width + COLUMN_GAP) if left else neighbour.width + COLUMN_GAP
+    beyond = [other for other in movable if sideways * (_left(other) - _left(neighbour)) > 0.0]
+    if left:
+        overlaps = [_right(other) + COLUMN_GAP - x for other in beyond]
+    else:
+        overlaps = [x + node.width + COLUMN_GAP - _left(other) for other in beyond]
+    for other in beyond:
+        other.location.x += sideways * max(0.0, *overlaps)
+    others = [other for other in tree.nodes if other != node and other.bl_idname != "NodeFrame"]
+    for other in sorted(others, key=lambda other: -other.location_absolute.y):
+        top, bottom = other.location_absolute.y, other.location_absolute.y - estimated_height(other)
+        beside = _right(other) <= x or _left(other) >= x + node.width
+        if not beside and bottom < y and top > y - estimated_height(node):
+            y = bottom - ROW_GAP
+    node.location = (x, y)
+
+
+def _left(node):
+    return node.location_absolute.x
+
+
+def _right(node):
+    return _left(node) + node.width
 
 
 def _by_frame(nodes):

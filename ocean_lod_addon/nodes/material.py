@@ -165,6 +165,16 @@ def _new_material(name):
     return material
 
 
+def own_nodes(tree) -> list[bpy.types.Node]:
+    """The nodes of a material that this extension put beside the water's, as far as the artist left them."""
+    names = (SLOPE_VARIANCE.name, *(_output_name(socket) for socket in (CYCLES, EEVEE)))
+    return [tree.nodes[name] for name in names if name in tree.nodes]
+
+
+def _output_name(socket):
+    return f"Output {socket.name}"
+
+
 def _build_tree(tree):
     attribute = tree.nodes.new("ShaderNodeAttribute")
     attribute.name = attribute.label = SLOPE_VARIANCE.name
@@ -177,7 +187,7 @@ def _build_tree(tree):
     tree.links.new(attribute.outputs["Vector"], water.inputs[SLOPE_VARIANCE.name])
     for socket in (CYCLES, EEVEE):
         output = tree.nodes.new("ShaderNodeOutputMaterial")
-        output.name = output.label = f"Output {socket.name}"
+        output.name = output.label = _output_name(socket)
         output.target = socket.name.upper()
         tree.links.new(water.outputs[socket.name], output.inputs["Surface"])
     for node in tree.nodes:
@@ -208,7 +218,7 @@ def _use_group(material, group):
     for name, target in targets:
         if name in node.outputs:
             tree.links.new(node.outputs[name], target)
-    output = tree.nodes.get(f"Output {CYCLES.name}")
+    output = tree.nodes.get(_output_name(CYCLES))
     see_through = VOLUME.name in node.outputs
     if see_through and output is not None:
         tree.links.new(node.outputs[VOLUME.name], output.inputs["Volume"])

@@ -9,8 +9,8 @@ import numpy as np
 from ..core.plan import RIPPLES_NODE
 from ..core.ripples.bump import BumpLayout
 from .groups import ensure_group, remove_unused
-from .layout import arrange
-from .material import MATERIAL_KEY, NODE_NAME
+from .layout import place_beside
+from .material import MATERIAL_KEY, NODE_NAME, own_nodes
 from .ripples_group import WAVE_HEIGHT, ripples_recipe, variance_socket
 from .sockets import NORMAL, SLOPE_VARIANCE
 
@@ -41,12 +41,11 @@ def _insert_node(tree, group):
     node = tree.nodes.new("ShaderNodeGroup")
     node.name = node.label = RIPPLES_NODE_NAME
     node.node_tree = group
-    node.width = 240.0
     for source in sources:
         tree.links.new(source, node.inputs[SLOPE_VARIANCE.name])
     for name in (SLOPE_VARIANCE.name, NORMAL.name):
         tree.links.new(node.outputs[name], water.inputs[name])
-    arrange(tree)
+    place_beside(tree, node, water, own_nodes(tree), left=True)
 
 
 def hide_ripples(material: bpy.types.Material) -> None:

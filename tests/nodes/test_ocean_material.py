@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The ocean material: one, changed in place, and careful with what the artist did to it."""
 
+import itertools
+
 import bpy
 import pytest
 
 from ocean_lod_addon.core.material_settings import MaterialSettings
 from ocean_lod_addon.nodes.groups import VERSION_KEY
-from ocean_lod_addon.nodes.layout import fitting_width
-from ocean_lod_addon.nodes.material import SLOPE_VARIANCE_ATTRIBUTE, ensure_material
+from ocean_lod_addon.nodes.layout import estimated_height, fitting_width, place_beside
+from ocean_lod_addon.nodes.material import SLOPE_VARIANCE_ATTRIBUTE, ensure_material, own_nodes
 from ocean_lod_addon.nodes.water_group import WATER
 from tests.nodes.tree_description import describe_tree
 
@@ -93,6 +95,24 @@ def test_own_nodes_and_links_of_the_artist_survive():
     ensure_material("Ocean", MaterialSettings(roughness=3.0, water_type="coastal"))
     assert bpy.data.node_groups[WATER.name][VERSION_KEY] == WATER.full_version
     assert water.inputs["Roughness"].links[0].from_node == noise
+
+
+@pytest.mark.parametrize("left", [True, False])
+def test_a_node_that_comes_later_moves_no_node_of_the_artist(left):
+    tree = ensure_material("Ocean", MaterialSettings()).node_tree
+    water = tree.nodes[WATER.name]
+    theirs = tree.nodes.new("ShaderNodeTexNoise")
+    theirs.location = water.location.x + (-250.0 if left else 320.0), water.location.y - 30.0
+    places = {node.name: tuple(node.location) for node in (theirs, water)}
+    node = tree.nodes.new("ShaderNodeTexVoronoi")
+    place_beside(tree, node, water, own_nodes(tree), left)
+    assert {name: tuple(tree.nodes[name].location) for name in places} == places
+    boxes = [(*other.location, other.width, estimated_height(other)) for other in (node, *own_nodes(tree), theirs)]
+    for (x, y, width, height), (u, v, w, h) in itertools.combinations(boxes[:-1], 2):
+        assert x + width <= u or u + w <= x or y - height >= v or v - h >= y
+    (x, y, width, height), (u, v, w, h) = boxes[0], boxes[-1]
+    assert x + width <= u or u + w <= x or y - height >= v or v - h >= y
+    assert (node.location.x < water.location.x) == left
 
 
 def test_groups_built_twice_are_identical():

@@ -140,6 +140,7 @@ def test_foam_comes_and_goes_without_breaking_an_artist_s_material(shot):
     effects, tree = ocean.ocean_lod.effects, ocean.data.materials[0].node_tree
     output = tree.nodes["Output Cycles"]
     mix = tree.nodes.new("ShaderNodeMixShader")
+    mix.location = (700.0, -77.0)
     before = output.inputs["Surface"].links[0].from_node
     tree.links.new(output.inputs["Surface"].links[0].from_socket, mix.inputs[1])
     tree.links.new(mix.outputs[0], output.inputs["Surface"])
@@ -152,6 +153,7 @@ def test_foam_comes_and_goes_without_breaking_an_artist_s_material(shot):
         effects.foam = word
         assert output.inputs["Surface"].links[0].from_node == mix
         assert mix.inputs[1].links[0].from_node.name == behind
+        assert tuple(mix.location) == (700.0, -77.0)
         assert ("Ocean LOD Foam" in tree.nodes) == (word == "on")
         assert ("Ocean LOD Foam" in bpy.data.node_groups) == (word == "on")
 
