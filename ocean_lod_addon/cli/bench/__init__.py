@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...core.contraction import CONTRACTIONS, fastest_contraction
 from ...core.errors import OceanError
+from ..results import json_output, save_json
 from . import in_blender, measurements, plot, suite
 
 NAME = "bench"
@@ -31,42 +32,20 @@ def add_arguments(parser) -> None:
 
 def run(options) -> None:
     """Measure, print and save. Raises OceanError for bad arguments, before anything is measured."""
-    output = Path(options.output).absolute()
     if options.numpy_without_blas:
         _check_without_blas(options.numpy_without_blas)
-    _check_output(output)
+    output = json_output(options.output)
     plan = measurements.FULL if options.full else measurements.QUICK
     contraction = options.contraction or fastest_contraction()
     results = suite.measure_and_print(plan, contraction, in_blender.is_available())
     saved = results.as_mapping()
     if options.numpy_without_blas:
         saved["numpy_without_blas"] = _measure_without_blas(options)
-    _save(output, saved)
+    save_json(output, saved)
     if plot.save_plot(results.rows, str(results.machine), output.with_suffix(".png")):
         print(f"saved {output.with_suffix('.png')}", flush=True)
     else:
         print("no plot: the Python package matplotlib is not installed here", flush=True)
-
-
-def _check_output(output):
-    if output.suffix != ".json":
-        raise OceanError(f"--output {output.name!r} ends in {output.suffix!r}, allowed is .json")
-    try:
-        output.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OceanError(f"--output {output} can not be written: {error.strerror}") from None
-    if output.is_dir() or not os.access(output.parent, os.W_OK):
-        raise OceanError(f"--output {output} can not be written")
-
-
-def _save(output, saved):
-    try:
-        partial = output.with_suffix(".part")
-        partial.write_text(json.dumps(saved, indent=2) + "\n", encoding="utf-8")
-        partial.replace(output)
-    except OSError as error:
-        raise OceanError(f"--output {output} can not be written: {error.strerror}") from None
-    print(f"saved {output}", flush=True)
 
 
 _PACKAGE = __package__.split(".")[-3]

@@ -2,19 +2,17 @@
 """`cost`: what accuracy costs in time on this machine, and what a budget buys."""
 
 import csv
-import json
-import os
+import io
 import time
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from ...core.contraction import CONTRACTIONS, fastest_contraction
 from ...core.cost.model import CostModel
 from ...core.cost.probe import probe
-from ...core.errors import OceanError
 from ..arguments import real_number
 from ..bench import in_blender
 from ..bench.machine import Machine, disturbance, this_machine
+from ..results import json_output, save_json, save_text
 from . import budgets, configurations, ladders, pictures, plot, prediction, report
 from .budgets import BudgetResult
 from .configurations import ConfigurationResult, FrontPoint
@@ -111,8 +109,7 @@ def run(options) -> None:
         model, _ = _measured_model(with_blender)
         print(budgets.choose_for(model, 1e-3 * options.budget_ms).explain(), flush=True)
         return
-    output = Path(options.output).absolute()
-    _check_output(output)
+    output = json_output(options.output)
     results = _measure(options, output, with_blender)
     _save(output, results)
     knobs_path, front_path = (output.with_name(f"{output.stem}_{name}.png") for name in ("knobs", "front"))
@@ -201,24 +198,8 @@ def _print(title, lines):
     print(f"\n{title}", *lines, sep="\n", flush=True)
 
 
-def _check_output(output):
-    if output.suffix != ".json":
-        raise OceanError(f"--output {output.name!r} ends in {output.suffix!r}, allowed is .json")
-    try:
-        output.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OceanError(f"--output {output} can not be written: {error.strerror}") from None
-    if output.is_dir() or not os.access(output.parent, os.W_OK):
-        raise OceanError(f"--output {output} can not be written")
-
-
 def _save(output, results):
-    try:
-        partial = output.with_suffix(".part")
-        partial.write_text(json.dumps(results.as_mapping(), indent=2) + "\n", encoding="utf-8")
-        partial.replace(output)
-        with output.with_suffix(".csv").open("w", encoding="utf-8", newline="") as file:
-            csv.writer(file).writerows([report.CSV_HEADER, *report.csv_rows(results.ladders)])
-    except OSError as error:
-        raise OceanError(f"--output {output} can not be written: {error.strerror}") from None
-    print(f"saved {output}\nsaved {output.with_suffix('.csv')}", flush=True)
+    save_json(output, results.as_mapping())
+    table = io.StringIO()
+    csv.writer(table).writerows([report.CSV_HEADER, *report.csv_rows(results.ladders)])
+    save_text(output.with_suffix(".csv"), table.getvalue())
