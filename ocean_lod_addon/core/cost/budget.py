@@ -41,7 +41,7 @@ class Choice:
         chosen = f"{self.rung.label} ({describe(self.rung)})"
         if not self.fits:
             return f"Even {chosen}, the cheapest, takes {taken}, more than the budget of {budget}: {parts}"
-        text = f"{chosen} takes {taken} of the {budget}: {parts}."
+        text = f"{chosen} takes {taken} of the {budget}, a little of which is kept free: {parts}."
         if self.above is None:
             return f"{text} There is nothing more accurate to spend the rest on"
         rung, seconds = self.above
@@ -60,13 +60,18 @@ def milliseconds(seconds: float) -> str:
     return f"{1e3 * seconds:.3g} ms"
 
 
+HEADROOM = 0.08
+"""Share of a budget that is kept free: a frame may take so much longer than predicted, and yet not exceed it."""
+
+
 def choose(rungs: list[Rung], predict: Callable[[Rung], dict[str, float]], budget: float) -> Choice:
-    """The most accurate of `rungs`, which come from cheap to accurate, predicted to take `budget` s at most.
+    """The most accurate of `rungs`, from cheap to accurate, predicted to take `budget` s at most, less HEADROOM.
 
     `predict` gives the seconds of each stage. If none fits it is the first, and the choice says that it does not.
     """
     predictions = [predict(rung) for rung in rungs]
     totals = [sum(stages.values()) for stages in predictions]
-    best = max((number for number, total in enumerate(totals) if total <= budget), default=0)
+    allowed = (1.0 - HEADROOM) * budget
+    best = max((number for number, total in enumerate(totals) if total <= allowed), default=0)
     above = None if best + 1 == len(rungs) else (rungs[best + 1], totals[best + 1])
     return Choice(rungs[best], predictions[best], budget, above)

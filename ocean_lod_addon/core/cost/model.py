@@ -30,7 +30,9 @@ STAGES: dict[str, Stage] = {
     "factors": Stage("Wave factors", lambda work: (1.0, work.factor_terms)),
     "products": Stage("Wave products", lambda work: (work.multiplications, work.runs, work.floats, work.products)),
     "normals": Stage("Normals", lambda work: (float(work.normals > 0.0), work.normals)),
-    "foam_products": Stage("Foam products", lambda work: (work.foam_multiplications, work.foam_floats)),
+    "foam_products": Stage(
+        "Foam products", lambda work: (work.foam_multiplications, work.foam_runs, work.foam_floats)
+    ),
     "foam": Stage("Foam", lambda work: (float(work.foam_vertices > 0.0), work.foam_floats, work.foam_vertices)),
     "write": Stage("Write mesh", lambda work: (work.vectors, work.vectors * work.vertices)),
     "ripples": Stage("Ripples", lambda work: (work.images, work.texels, work.far_texels)),

@@ -34,6 +34,7 @@ class Work:
     far_texels       those of images of so many texels that a processor's caches do not hold them
     images           how many ripple images are written
     foam_multiplications  multiply-adds of the columns in which foam is looked for
+    foam_runs        rows of their products times waves, as for `runs`
     foam_floats      numbers that they are, each looked through for foam
     foam_vertices    vertices with foam, 0 without
     """
@@ -50,6 +51,7 @@ class Work:
     far_texels: float
     images: float
     foam_multiplications: float
+    foam_runs: float
     foam_floats: float
     foam_vertices: float
 
@@ -76,11 +78,13 @@ def work_of(
     base = 4 if ocean.framing.curved_earth else 2
     columns = sum(block.columns for block in blocks)
     inner = 2 * counts + base
-    rows = np.array([tile.rows * _pieces(tile.columns, blocks) for tile in plane], dtype=float)
+    rows = np.array([tile.rows for tile in plane], dtype=float)
+    pieces = np.array([sum(_pieces(tile.columns * block.columns) for block in blocks) for tile in plane])
     instants = 0 if ocean.foam is None else ocean.foam.memory_steps
+    foam_pieces = np.array([_pieces(tile.columns * instants) if instants else 0 for tile in plane])
     return Work(
         multiplications=float(columns * np.sum(inner * vertices)),
-        runs=float(np.sum(inner * rows)),
+        runs=float(np.sum(inner * rows * pieces)),
         floats=float(columns * vertices.sum()),
         products=float(len(blocks) * _run_count(plane, counts)),
         factor_terms=float(_factor_terms(ocean.grid, waves.wavelength)),
@@ -88,15 +92,16 @@ def work_of(
         normals=float(ocean.grid.vertex_count) if TANGENTS in blocks else 0.0,
         vectors=len(blocks) + (_FOAM_VECTORS if instants else 0.0),
         foam_multiplications=float(instants * np.sum(inner * vertices)),
+        foam_runs=float(np.sum(inner * rows * foam_pieces)),
         foam_floats=float(instants * ocean.grid.vertex_count),
         foam_vertices=float(ocean.grid.vertex_count) if instants else 0.0,
         **ripple_work(_images(ocean)),
     )
 
 
-def _pieces(columns, blocks):
-    """Into how many runs over neighbouring columns a row of a tile is cut, all blocks together."""
-    return sum(max(1, round(columns * block.columns / PIECE_COLUMNS)) for block in blocks)
+def _pieces(columns):
+    """Into how many runs over neighbouring columns a row of a product is cut."""
+    return max(1, round(columns / PIECE_COLUMNS))
 
 
 def _waves_of_tiles(grid: Grid, wavelength):
