@@ -24,7 +24,7 @@ TESTS ?=
 # Passed on to the benchmark, for example: make bench BENCH=--full
 BENCH ?=
 
-.PHONY: help demo test test-5.2 test-4.5 fuzz fuzz-5.2 fuzz-4.5 hard-cases lint bench bench-without-blas cost zip clean \
+.PHONY: help demo test test-5.2 test-4.5 fuzz fuzz-5.2 fuzz-4.5 hard-cases lint bench bench-without-blas cost effects zip clean \
 	environment-blender-5.2 environment-blender-4.5 \
 	environment-lint
 
@@ -37,6 +37,7 @@ help:
 	@echo 'make bench   measure the time a frame takes (BENCH=--full for the whole table)'
 	@echo 'make bench-without-blas    the same, and with a NumPy without BLAS, which it compiles'
 	@echo 'make cost    measure what accuracy costs in time, into docs/accuracy-and-cost.md'
+	@echo 'make effects measure what each effect takes, on and off, into docs/effects.md'
 	@echo 'make zip     build the extension, to install in Blender, in dist/'
 	@echo 'make clean   remove the environments and everything that was built'
 
@@ -89,9 +90,16 @@ bench-without-blas: environment-blender-5.2
 # Passed on to the measurement, for example: make cost COST=--quick
 COST ?= --full
 
+# Passed on to the measurement, for example: make effects EFFECTS=--full
+EFFECTS ?=
+
 cost: environment-blender-5.2
 	$(BLENDER_5.2) -m ocean_lod_addon cost $(COST) --output out/cost.json
 	$(BLENDER_5.2) tools/accuracy_document.py out/cost.json
+
+effects: environment-blender-5.2
+	$(BLENDER_5.2) -m ocean_lod_addon effects $(EFFECTS) --output out/effects.json
+	$(BLENDER_5.2) tools/effects_document.py out/effects.json
 
 zip: environment-blender-5.2
 	$(BLENDER_5.2) tools/extension.py

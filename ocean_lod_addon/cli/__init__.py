@@ -5,14 +5,14 @@ import argparse
 import sys
 
 from ..core.errors import OceanError
-from . import bench, cost, explain, render, sea, slopes, swim
+from . import bench, cost, effects, explain, render, sea, slopes, swim
 
 EXIT_OK = 0
 EXIT_FAILED = 1  # the machine or Blender failed
 EXIT_BAD_INPUT = 2  # something to mend in the command or its files; argparse uses the same
 EXIT_INTERRUPTED = 130
 
-_COMMANDS = (render, sea, explain, slopes, swim, bench, cost)
+_COMMANDS = (render, sea, explain, slopes, swim, bench, cost, effects)
 
 
 class _Parser(argparse.ArgumentParser):

@@ -217,20 +217,20 @@ class Auto:
 def decide(facts: Facts, settings: Settings, waves: WaveSet) -> Plan:
     """The plan for a scene; a function of its arguments alone."""
     auto = {
-        "horizontal_displacement": _horizontal_displacement(facts, settings, waves),
-        "analytic_normals": _analytic_normals(facts, settings, waves),
-        "velocity": _velocity(facts, waves),
-        "foam": _foam(facts, settings),
-        "ripples": _ripples(facts, settings),
-        "gusts": _gusts(facts, settings),
-        "skewed_slopes": _skewed_slopes(facts, settings),
-        "curved_earth": _curved_earth(facts, settings),
-        "see_through": _see_through(facts, settings),
-        "finite_depth": _finite_depth(settings, waves),
+        "horizontal_displacement": lambda: _horizontal_displacement(facts, settings, waves),
+        "analytic_normals": lambda: _analytic_normals(facts, settings, waves),
+        "velocity": lambda: _velocity(facts, waves),
+        "foam": lambda: _foam(facts, settings),
+        "ripples": lambda: _ripples(facts, settings),
+        "gusts": lambda: _gusts(facts, settings),
+        "skewed_slopes": lambda: _skewed_slopes(facts, settings),
+        "curved_earth": lambda: _curved_earth(facts, settings),
+        "see_through": lambda: _see_through(facts, settings),
+        "finite_depth": lambda: _finite_depth(settings, waves),
     }
     decisions = []
     for name, parameter in parameters_of(Effects).items():
-        answer = _word(getattr(settings.effects, name), auto[name])
+        answer = _answer(getattr(settings.effects, name), auto[name])
         decisions.append(Decision(name, parameter.label, bool(answer.on), answer.why))
     tiles, why_tiles = _tiles(facts, settings)
     ripples = next(decision.on for decision in decisions if decision.effect == "ripples")
@@ -265,13 +265,14 @@ def effective(settings: Settings, plan: Plan) -> Settings:
     )
 
 
-def _word(choice, auto):
-    """The artist's word over what Auto would do."""
-    if choice == OFF:
+def _answer(word, auto):
+    """The artist's word over what Auto would do, which is asked only where it matters."""
+    if word == OFF:
         return Auto(False, "Set to Off")
-    if choice == ON and not auto.on and auto.possible:
-        return Auto(True, f"Set to On; Auto would not: {auto.why}")
-    return auto
+    answer = auto()
+    if word == ON and not answer.on and answer.possible:
+        return Auto(True, f"Set to On; Auto would not: {answer.why}")
+    return answer
 
 
 def _tiles(facts, settings):

@@ -56,6 +56,12 @@ def _normals(vertex_count: int) -> np.ndarray:
     return np.empty((vertex_count, 3), np.float32)
 
 
+def forget_surfaces() -> None:
+    """Let go of all surfaces and scratch memory: the next frame makes what it needs."""
+    for cached in (_surface, _buffer, _normals):
+        cached.cache_clear()
+
+
 def create(
     scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean", *, ripples: Ripples | None = None
 ):

@@ -89,6 +89,12 @@ _BYTES_OF_ELEMENT = {
 }
 
 
+def mesh_bytes(mesh) -> int:
+    """Bytes of a mesh: its topology, positions and attributes."""
+    elements = sum(len(a.data) * _BYTES_OF_ELEMENT[a.data_type] for a in mesh.attributes)
+    return elements + 4 * (len(mesh.polygons) + 1)  # where each face's corners begin
+
+
 class OurObject:
     """The object that the extension makes for a grid, whose mesh takes the positions of any kernel on it."""
 
@@ -108,9 +114,7 @@ class OurObject:
 
     def mesh_bytes(self) -> int:
         """Bytes of the mesh: its topology, positions and attributes."""
-        mesh = self._placed.ob.data
-        elements = sum(len(a.data) * _BYTES_OF_ELEMENT[a.data_type] for a in mesh.attributes)
-        return elements + 4 * (len(mesh.polygons) + 1)  # where each face's corners begin
+        return mesh_bytes(self._placed.ob.data)
 
 
 def menu_ocean() -> Contestant:

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`effects`: what each effect takes where it is on, and that it takes nothing where it is off."""
+
+import contextlib
+import json
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...core.effects import OFF, ON, Effects
+from ...core.errors import OceanError
+from ...core.lod import Grid
+from ...core.parameters import parameters_of
+from ..bench.in_blender import fresh_data, is_available
+from ..bench.machine import Machine, disturbance, this_machine
+from ..bench.timing import Timing, measure
+from . import report
+from .builds import ABSENT, NAMES, Picture, states_of
+
+NAME = "effects"
+HELP = "Measure what each effect takes where it is on, and that it takes nothing where it is off."
+
+_SCHEMA_VERSION = 1
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How much is measured: the plane, the rounds of frames, and pictures."""
+
+    grid: Grid
+    rounds: int
+    pictures: tuple[Picture, ...]
+
+
+_GRID = Grid(cells=64, levels=8)
+"""Small: what an effect that is off still took would show beside it."""
+
+QUICK = Extent(_GRID, 8, (Picture("CYCLES", (96, 54), 4, rounds=4),))
+FULL = Extent(_GRID, 20, (Picture("CYCLES", (96, 54), 4, rounds=9), Picture("EEVEE", (64, 36), 1, rounds=3)))
+"""EEVEE may have to do without a graphics processor, and compiles its shaders for every picture."""
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """One effect. Times by state (on, off, absent): of frames, and of pictures by engine; bytes by state."""
+
+    effect: str
+    frame: dict[str, Timing]
+    memory: dict[str, int]
+    pictures: dict[str, dict[str, Timing]]
+
+    @property
+    def label(self) -> str:
+        """As the panel calls it."""
+        return parameters_of(Effects)[self.effect].label
+
+    def as_mapping(self) -> dict:
+        """For the saved file."""
+        return {
+            "effect": self.effect,
+            "label": self.label,
+            "frame_ms": _milliseconds(self.frame),
+            "frame_off_over_absent": _ratios(self.frame),
+            "memory_bytes": self.memory,
+            "render_ms": {engine: _milliseconds(states) for engine, states in self.pictures.items()},
+            "render_off_over_absent": {
+                engine: _ratios(states) for engine, states in self.pictures.items()
+            },
+        }
+
+
+def _milliseconds(states):
+    return {state: 1e3 * timing.median() for state, timing in states.items()}
+
+
+def _ratios(states):
+    over = report.off_over_absent(states)
+    return {"medians": over.of_medians, "fastest": over.of_minima}
+
+
+@dataclass(frozen=True, eq=False)
+class Results:
+    """Everything that was measured."""
+
+    machine: Machine
+    vertices: int
+    rows: list[Row]
+
+    def as_mapping(self) -> dict:
+        """For the saved file."""
+        return {
+            "schema_version": _SCHEMA_VERSION,
+            "machine": self.machine.as_mapping(),
+            "vertices": self.vertices,
+            "effects": [row.as_mapping() for row in self.rows],
+        }
+
+
+def add_arguments(parser) -> None:
+    """Declare the command's arguments."""
+    parser.add_argument(
+        "--full", action="store_true", help="more rounds, and pictures in EEVEE: ten minutes (default: under two)"
+    )
+    parser.add_argument(
+        "--only", choices=NAMES, nargs="+", default=NAMES, metavar="EFFECT", help=f"of {', '.join(NAMES)} (all)"
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON; progress goes to the error stream")
+    parser.add_argument("--output", metavar="FILE", help="also save the results, as JSON")
+
+
+def run(options) -> None:
+    """Measure, print and save. Raises OceanError for bad arguments, before anything is measured."""
+    if not is_available():
+        raise OceanError("effects are measured in Blender: this Python has no module bpy")
+    output = Path(options.output).absolute() if options.output else None
+    if output is not None:
+        _check(output)
+    with contextlib.redirect_stdout(sys.stderr) if options.json else contextlib.nullcontext():
+        results = measure_effects(FULL if options.full else QUICK, options.only)
+    text = json.dumps(results.as_mapping(), indent=2)
+    if options.json:
+        print(text)
+    if output is not None:
+        output.write_text(text + "\n", encoding="utf-8")
+        print(f"saved {output}", file=sys.stderr if options.json else sys.stdout)
+
+
+def _check(output):
+    try:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        output.touch()
+    except OSError as error:
+        raise OceanError(f"--output {output} can not be written: {error.strerror}") from None
+
+
+def measure_effects(extent: Extent, names=NAMES) -> Results:
+    """Measure effects one after the other; rows are printed as soon as they are known."""
+    started = time.perf_counter()
+    machine = this_machine(True)
+    engines = [picture.engine for picture in extent.pictures]
+    print(f"{machine}; {extent.grid.vertex_count} vertices\n\n{report.LEGEND}\n", flush=True)
+    print("\n".join(report.header(engines)), flush=True)
+    rows = []
+    for name in names:
+        rows.append(_measure(name, extent))
+        print(report.line(rows[-1]), flush=True)
+    print("\n" + "\n".join(report.verdicts(rows)), flush=True)
+    if disturbance():
+        print(f"\n{disturbance()}")
+    print(f"\nmeasured in {time.perf_counter() - started:.0f} s", flush=True)
+    return Results(machine, extent.grid.vertex_count, rows)
+
+
+def _measure(effect, extent):
+    with fresh_data():
+        oceans = states_of(effect, extent.grid)
+        frames = measure([ocean.frame(state) for state, ocean in oceans.items()], extent.rounds)
+        pictures = {}
+        for picture in extent.pictures:
+            contestants = [ocean.picture(state, picture) for state, ocean in oceans.items()]
+            pictures[picture.engine] = measure(contestants, picture.rounds)
+        memory = {state: oceans[state].memory() for state in (ON, OFF, ABSENT)}
+    return Row(effect, frames, memory, pictures)
