@@ -2,6 +2,7 @@
 """`explain`: which effects a shot calls for, and why."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from ..core import presets
@@ -65,7 +66,7 @@ def preset_plan(options) -> Plan:
         Framing(),
         preset.material,
         fit_ripples(Ripples(), [needs], grid.shortest_wavelength, waves),
-        Foam(**given_settings(options, Foam)),
+        replace(preset.foam, **given_settings(options, Foam)),
         Effects(**given_settings(options, Effects)),
     )
     facts = Facts(engine=options.engine, shutter=options.shutter, samples=options.samples, camera=needs)

@@ -148,7 +148,7 @@ def _build(options):
     sea = presets.with_seed(preset.sea, options.seed)
     waves = discretise(sea, grid.shortest_wavelength)
     ripples = fit_ripples(Ripples(), [needs], grid.shortest_wavelength, waves)
-    ocean = ocean_object.create(scene, sea, grid, preset.material, ripples=ripples)
+    ocean = ocean_object.create(scene, sea, grid, preset.material, ripples=ripples, foam=preset.foam)
     scene.collection.objects.link(ocean)
     return scene
 

@@ -198,15 +198,19 @@ def from_file_value(name: str, value: object, parameter: Parameter) -> object:
     return float(value) if isinstance(parameter, Number) else value
 
 
-def settings_from_mapping(cls, mapping: dict, where: str, **other_fields):
+def settings_from_mapping(cls, mapping: dict, where: str, left_out=(), **other_fields):
     """An instance of the settings class `cls` from a file's mapping; missing keys keep their defaults.
 
-    `where` names the file for the error line; `other_fields` are fields that are no parameters. Raises
-    `OceanError` for an unknown key, a wrong type or a value out of range.
+    `where` names the file for the error line; settings in `left_out` are not for files, and `other_fields` are
+    fields that are no parameters. Raises `OceanError` for an unknown key, a wrong type or a value out of range.
     """
     if not isinstance(mapping, dict):
         raise OceanError(f"{where}: expected a table of settings, found {type(mapping).__name__}")
-    by_key = {file_key(name, parameter): (name, parameter) for name, parameter in parameters_of(cls).items()}
+    by_key = {
+        file_key(name, parameter): (name, parameter)
+        for name, parameter in parameters_of(cls).items()
+        if name not in left_out
+    }
     values = {}
     for key, value in mapping.items():
         if key not in by_key:
@@ -222,9 +226,13 @@ def settings_from_mapping(cls, mapping: dict, where: str, **other_fields):
         raise OceanError(f"{where}: {error}") from None
 
 
-def mapping_from_settings(settings) -> dict:
-    """The file's mapping of a settings instance; `settings_from_mapping` gives the same settings back."""
+def mapping_from_settings(settings, left_out=()) -> dict:
+    """The file's mapping of a settings instance; `settings_from_mapping` gives the same settings back.
+
+    Settings in `left_out` are not for files.
+    """
     return {
         file_key(name, parameter): to_file_value(getattr(settings, name), parameter)
         for name, parameter in parameters_of(settings).items()
+        if name not in left_out
     }

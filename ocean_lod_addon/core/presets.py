@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Preset files: a sea state, its water and a first shot, as JSON with units in the key names.
+"""Preset files: a sea state, its water, its foam and a first shot, as JSON with units in the key names.
 
 A preset is data. It is parsed and checked key by key, never executed; every error is one line that names the
 file, the key, the value and what is allowed.
@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from .errors import OceanError, OutOfRangeError
+from .foam_settings import Foam
 from .material_settings import MaterialSettings
 from .parameters import mapping_from_settings, settings_from_mapping
 from .sea import LARGEST_SEED, Sea, WaveSystem
@@ -21,7 +22,10 @@ SCHEMA_VERSION = 1
 FOLDER = Path(__file__).parents[2] / "presets"
 """The presets that come with the extension."""
 
-_SECTIONS = ("schema_version", "title", "description", "sea", "material", "shot")
+_SECTIONS = ("schema_version", "title", "description", "sea", "material", "foam", "shot")
+
+FOAM_EFFORT = ("memory_steps",)
+"""Settings of foam that are no part of a look: how much is spent on it is up to the quality."""
 
 _LONGEST_NAME = 60
 _NOT_IN_FILE_NAMES = frozenset('<>:"/\\|?*')
@@ -31,12 +35,13 @@ _NAMES_OF_DEVICES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNOR
 
 @dataclass(frozen=True)
 class Preset:
-    """One preset: what the sea is, what the water is, and a shot that shows it."""
+    """One preset: what the sea is, what the water and the foam are, and a shot that shows it."""
 
     title: str = ""
     description: str = ""
     sea: Sea = field(default_factory=Sea)
     material: MaterialSettings = field(default_factory=MaterialSettings)
+    foam: Foam = field(default_factory=Foam)
     shot: Shot = field(default_factory=Shot)
 
 
@@ -95,6 +100,7 @@ def parse(text: str, where: str) -> Preset:
         content.get("description", ""),
         _sea(content.get("sea", {}), f"{where}: sea"),
         settings_from_mapping(MaterialSettings, content.get("material", {}), f"{where}: material"),
+        settings_from_mapping(Foam, content.get("foam", {}), f"{where}: foam", left_out=FOAM_EFFORT),
         settings_from_mapping(Shot, content.get("shot", {}), f"{where}: shot"),
     )
 
@@ -122,6 +128,7 @@ def to_text(preset: Preset) -> str:
         "description": preset.description,
         "sea": sea,
         "material": mapping_from_settings(preset.material),
+        "foam": mapping_from_settings(preset.foam, left_out=FOAM_EFFORT),
         "shot": mapping_from_settings(preset.shot),
     }
     return json.dumps(content, indent=2) + "\n"

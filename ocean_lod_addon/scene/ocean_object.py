@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.column_blocks import TANGENTS, VELOCITY
 from ..core.errors import OceanError
+from ..core.foam_settings import Foam
 from ..core.kernel import ReusedArray
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
@@ -63,7 +64,14 @@ def forget_surfaces() -> None:
 
 
 def create(
-    scene, sea: Sea, grid: Grid, material: MaterialSettings, name="Ocean", *, ripples: Ripples | None = None
+    scene,
+    sea: Sea,
+    grid: Grid,
+    material: MaterialSettings,
+    name="Ocean",
+    *,
+    ripples: Ripples | None = None,
+    foam: Foam | None = None,
 ):
     """A new ocean object in the active collection, at its surface of the current frame. Raises OceanError."""
     ob = bpy.data.objects.new(name, bpy.data.meshes.new(name))
@@ -74,6 +82,7 @@ def create(
         properties.write_grid(grid, ob.ocean_lod)
         properties.write_material(material, ob.ocean_lod)
         properties.write_ripples(ripples or Ripples(), ob.ocean_lod)
+        properties.write_foam(foam or Foam(), ob.ocean_lod)
         _add_pass_through_modifier(ob)
         _rebuild_and_move(ob, scene)
         planned = planning.PlannedOcean(ob, scene)

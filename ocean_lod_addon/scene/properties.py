@@ -15,7 +15,7 @@ from ..core.material_settings import MaterialSettings
 from ..core.ocean import Ocean
 from ..core.ocean_time import OceanTime, loop_period
 from ..core.parameters import parameters_of
-from ..core.presets import Preset
+from ..core.presets import FOAM_EFFORT, Preset
 from ..core.ripple_settings import Ripples
 from ..core.sea import Sea, WaveSystem
 from . import rna
@@ -256,14 +256,16 @@ def read_material(properties) -> MaterialSettings:
 
 
 def read_preset(properties, title: str, description: str) -> Preset:
-    """A preset of the sea state and the water; the shot is a preset's default."""
-    return Preset(title, description, read_sea(properties), read_material(properties))
+    """A preset of the sea state, the water and the look of the foam; the shot is a preset's default."""
+    foam = dataclasses.replace(read_foam(properties), **{name: getattr(Foam(), name) for name in FOAM_EFFORT})
+    return Preset(title, description, read_sea(properties), read_material(properties), foam)
 
 
 def write_preset(preset: Preset, properties) -> None:
-    """Put a preset's sea state and water into an object's properties; the caller refreshes the ocean."""
+    """Put a preset's sea state, water and foam into an object's properties; the caller refreshes the ocean."""
     write_sea(preset.sea, properties)
     write_material(preset.material, properties)
+    write_foam(preset.foam, properties)
 
 
 def write_sea(sea: Sea, properties) -> None:
@@ -292,6 +294,13 @@ def write_material(material: MaterialSettings, properties) -> None:
     """Put material settings into an object's properties; the caller refreshes the ocean."""
     with many_changes():
         rna.write(material, properties.material)
+
+
+def write_foam(foam: Foam, properties) -> None:
+    """Put the look of foam into an object's properties, not the effort; the caller refreshes the ocean."""
+    kept = {name: getattr(properties.foam, name) for name in FOAM_EFFORT}
+    with many_changes():
+        rna.write(dataclasses.replace(foam, **kept), properties.foam)
 
 
 def register(surface_changed, material_changed):

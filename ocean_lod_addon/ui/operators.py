@@ -53,7 +53,7 @@ class MESH_OT_ocean_lod_add(bpy.types.Operator):
         try:
             preset = preset_library.load(self.preset)
             sea = presets.with_seed(preset.sea, self.seed)
-            ob = ocean_object.create(context.scene, sea, rna.read(Grid, self), preset.material)
+            ob = ocean_object.create(context.scene, sea, rna.read(Grid, self), preset.material, foam=preset.foam)
         except OceanError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

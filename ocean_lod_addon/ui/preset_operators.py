@@ -35,7 +35,7 @@ class _PresetOperator(OceanOperator):
 
 
 class OBJECT_OT_ocean_lod_load_preset(_PresetOperator, bpy.types.Operator):
-    """Replace the sea state and the water of this ocean by a preset's"""
+    """Replace the sea state, water and foam of this ocean by a preset's"""
 
     bl_idname = "object.ocean_lod_load_preset"
     bl_label = "Load Sea Preset"
@@ -53,7 +53,7 @@ class OBJECT_OT_ocean_lod_load_preset(_PresetOperator, bpy.types.Operator):
 
 
 class OBJECT_OT_ocean_lod_save_preset(_PresetOperator, bpy.types.Operator):
-    """Save the sea state and the water of this ocean as a preset of yours"""
+    """Save the sea state, water and foam of this ocean as a preset of yours"""
 
     bl_idname = "object.ocean_lod_save_preset"
     bl_label = "Save Sea Preset"
@@ -117,7 +117,7 @@ class OBJECT_OT_ocean_lod_remove_preset(_PresetOperator, bpy.types.Operator):
 
 
 class OBJECT_OT_ocean_lod_import_preset(_PresetOperator, ImportHelper, bpy.types.Operator):
-    """Replace the sea state and the water of this ocean by those of a preset file"""
+    """Replace the sea state, water and foam of this ocean by those of a preset file"""
 
     bl_idname = "object.ocean_lod_import_preset"
     bl_label = "Import Sea Preset"
@@ -129,7 +129,7 @@ class OBJECT_OT_ocean_lod_import_preset(_PresetOperator, ImportHelper, bpy.types
 
 
 class OBJECT_OT_ocean_lod_export_preset(_PresetOperator, ExportHelper, bpy.types.Operator):
-    """Write the sea state and the water of this ocean to a preset file"""
+    """Write the sea state, water and foam of this ocean to a preset file"""
 
     bl_idname = "object.ocean_lod_export_preset"
     bl_label = "Export Sea Preset"

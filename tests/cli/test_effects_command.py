@@ -75,7 +75,7 @@ def test_what_is_off_calls_and_keeps_what_an_ocean_without_it_does():
 
 
 def test_a_small_measurement_becomes_text_json_and_a_page(capsys):
-    extent = Extent(TINY, 1, (Picture("CYCLES", (4, 4), 1, rounds=1),))
+    extent = Extent(TINY, 1, (Picture("CYCLES", (4, 4), 1, renders=1),))
     results = measure_effects(extent, ["foam"])
     saved = results.as_mapping()
     assert json.loads(json.dumps(saved)) == saved

@@ -14,6 +14,7 @@ from ocean_lod_addon.core import presets
 from ocean_lod_addon.core.beaufort import beaufort_force, typical_wind
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.errors import OceanError
+from ocean_lod_addon.core.foam_settings import Foam
 from ocean_lod_addon.core.material_settings import MaterialSettings
 from ocean_lod_addon.core.parameters import Choice, Integer, Number, Switch, parameters_of
 from ocean_lod_addon.core.presets import Preset
@@ -140,6 +141,7 @@ PRESETS = st.builds(
     description=st.text(max_size=50).filter(str.isprintable),
     sea=settings_of(Sea, systems=st.lists(settings_of(WaveSystem), min_size=1, max_size=3).map(tuple)),
     material=settings_of(MaterialSettings),
+    foam=settings_of(Foam).map(lambda foam: dataclasses.replace(foam, memory_steps=Foam().memory_steps)),
     shot=settings_of(Shot),
 )
 
@@ -156,6 +158,17 @@ def test_only_what_differs_needs_to_be_in_a_file():
     text = '{"schema_version": 1, "sea": {"systems": [{"direction_deg": 45}]}}'
     system = dataclasses.replace(WaveSystem(), direction=math.radians(45.0))
     assert presets.parse(text, "test") == Preset(sea=Sea((system,)))
+
+
+def test_foam_is_a_look_whose_effort_is_not_in_files():
+    text = '{"schema_version": 1, "foam": {"coverage": 2, "decay_time_s": 5, "grain_m": 1, "reflectance": 0.5}}'
+    preset = presets.parse(text, "test")
+    assert preset.foam == Foam(coverage=2.0, decay_time=5.0, grain=1.0, reflectance=0.5)
+    assert json.loads(presets.to_text(preset))["foam"] == json.loads(text)["foam"]
+    with pytest.raises(OceanError, match=r"mine: foam: unknown key 'memory_steps', allowed is coverage, "):
+        presets.parse('{"schema_version": 1, "foam": {"memory_steps": 3}}', "mine")
+    with pytest.raises(OceanError, match=r"mine: foam: decay_time_s is -1"):
+        presets.parse('{"schema_version": 1, "foam": {"decay_time_s": -1}}', "mine")
 
 
 def test_files_say_all_settings_in_units_people_use():

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core import presets
+from ocean_lod_addon.core.foam_settings import Foam
 from ocean_lod_addon.core.material_settings import MaterialSettings
 from ocean_lod_addon.core.parameters import Choice, Integer, Number, Switch, parameters_of
 from ocean_lod_addon.core.sea import Sea, WaveSystem
@@ -55,6 +56,9 @@ def randomise(ob, seed):
             set_randomly(system, WaveSystem, random)
             system.name = f"Système {number} 🌊"
         set_randomly(ob.ocean_lod.material, MaterialSettings, random)
+        effort = ob.ocean_lod.foam.memory_steps
+        set_randomly(ob.ocean_lod.foam, Foam, random)
+        ob.ocean_lod.foam.memory_steps = effort
 
 
 def test_a_new_ocean_begins_with_the_first_choice(ocean):

@@ -6,7 +6,6 @@ import json
 import sys
 import time
 from dataclasses import dataclass
-from pathlib import Path
 
 from ...core.effects import OFF, ON, Effects
 from ...core.errors import OceanError
@@ -14,7 +13,8 @@ from ...core.lod import Grid
 from ...core.parameters import parameters_of
 from ..bench.in_blender import fresh_data, is_available
 from ..bench.machine import Machine, disturbance, this_machine
-from ..bench.timing import Timing, measure
+from ..bench.timing import Timing, alternate
+from ..results import json_output, save_json
 from . import report
 from .builds import ABSENT, NAMES, Picture, states_of
 
@@ -26,18 +26,18 @@ _SCHEMA_VERSION = 1
 
 @dataclass(frozen=True)
 class Extent:
-    """How much is measured: the plane, the rounds of frames, and pictures."""
+    """How much is measured: the plane, the frames of each ocean, and pictures."""
 
     grid: Grid
-    rounds: int
+    frames: int
     pictures: tuple[Picture, ...]
 
 
 _GRID = Grid(cells=64, levels=8)
 """Small: what an effect that is off still took would show beside it."""
 
-QUICK = Extent(_GRID, 8, (Picture("CYCLES", (96, 54), 4, rounds=4),))
-FULL = Extent(_GRID, 20, (Picture("CYCLES", (96, 54), 4, rounds=9), Picture("EEVEE", (64, 36), 1, rounds=3)))
+QUICK = Extent(_GRID, 120, (Picture("CYCLES", (96, 54), 4, renders=4),))
+FULL = Extent(_GRID, 240, (Picture("CYCLES", (96, 54), 4, renders=9), Picture("EEVEE", (64, 36), 1, renders=3)))
 """EEVEE may have to do without a graphics processor, and compiles its shaders for every picture."""
 
 
@@ -100,7 +100,7 @@ class Results:
 def add_arguments(parser) -> None:
     """Declare the command's arguments."""
     parser.add_argument(
-        "--full", action="store_true", help="more rounds, and pictures in EEVEE: ten minutes (default: under two)"
+        "--full", action="store_true", help="more of each, and pictures in EEVEE: ten minutes (default: under two)"
     )
     parser.add_argument(
         "--only", choices=NAMES, nargs="+", default=NAMES, metavar="EFFECT", help=f"of {', '.join(NAMES)} (all)"
@@ -113,25 +113,13 @@ def run(options) -> None:
     """Measure, print and save. Raises OceanError for bad arguments, before anything is measured."""
     if not is_available():
         raise OceanError("effects are measured in Blender: this Python has no module bpy")
-    output = Path(options.output).absolute() if options.output else None
-    if output is not None:
-        _check(output)
+    output = json_output(options.output) if options.output else None
     with contextlib.redirect_stdout(sys.stderr) if options.json else contextlib.nullcontext():
-        results = measure_effects(FULL if options.full else QUICK, options.only)
-    text = json.dumps(results.as_mapping(), indent=2)
+        results = measure_effects(FULL if options.full else QUICK, options.only).as_mapping()
+        if output is not None:
+            save_json(output, results)
     if options.json:
-        print(text)
-    if output is not None:
-        output.write_text(text + "\n", encoding="utf-8")
-        print(f"saved {output}", file=sys.stderr if options.json else sys.stdout)
-
-
-def _check(output):
-    try:
-        output.parent.mkdir(parents=True, exist_ok=True)
-        output.touch()
-    except OSError as error:
-        raise OceanError(f"--output {output} can not be written: {error.strerror}") from None
+        print(json.dumps(results, indent=2))
 
 
 def measure_effects(extent: Extent, names=NAMES) -> Results:
@@ -155,10 +143,10 @@ def measure_effects(extent: Extent, names=NAMES) -> Results:
 def _measure(effect, extent):
     with fresh_data():
         oceans = states_of(effect, extent.grid)
-        frames = measure([ocean.frame(state) for state, ocean in oceans.items()], extent.rounds)
+        frames = alternate([ocean.frame(state) for state, ocean in oceans.items()], extent.frames)
         pictures = {}
         for picture in extent.pictures:
             contestants = [ocean.picture(state, picture) for state, ocean in oceans.items()]
-            pictures[picture.engine] = measure(contestants, picture.rounds)
+            pictures[picture.engine] = alternate(contestants, picture.renders)
         memory = {state: oceans[state].memory() for state in (ON, OFF, ABSENT)}
     return Row(effect, frames, memory, pictures)

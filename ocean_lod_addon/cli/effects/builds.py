@@ -35,7 +35,7 @@ class Picture:
     engine: str
     resolution: tuple[int, int]
     samples: int
-    rounds: int
+    renders: int
 
 
 class EffectOcean:

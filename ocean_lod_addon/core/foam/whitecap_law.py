@@ -8,7 +8,7 @@ _FULL_FROM = 5.0
 """Wind in m/s from which the law holds; between, it sets in smoothly, so that a rising wind does not pop."""
 
 _MOST = 0.8
-"""Coverage is held here: the law was fitted up to 25 m/s and would pass 1 at 39 m/s."""
+"""Coverage is held here: far beyond the data that it was fitted to, the law would pass 1 at 39 m/s."""
 
 EFFECTIVE_SHARE = 0.4
 """Reflectance of whitecaps of all ages over that of fresh ones: 22 % over 55 %, Koepke 1984."""
