@@ -16,7 +16,7 @@ DOCUMENT = ROOT / "docs" / "effects.md"
 
 
 def _times(milliseconds, ratio):
-    return [f"{milliseconds['on']:.1f}", f"{milliseconds['off']:.1f}", f"{ratio['medians']:.3f}"]
+    return [f"{milliseconds['on']:.1f}", f"{milliseconds['off']:.1f}", f"{ratio:.3f}"]
 
 
 def table_of(saved) -> str:
@@ -39,6 +39,7 @@ def table_of(saved) -> str:
         "",
         f"Measured on {machine['processor']}, {machine['cores']} cores, NumPy {machine['numpy']}, BLAS "
         f"{machine['blas']}, Blender {machine['blender']}, with {saved['vertices']} vertices.",
+        saved["disturbance"],
     ]
     return "\n".join(lines)
 

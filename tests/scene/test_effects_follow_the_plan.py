@@ -188,3 +188,38 @@ def test_frames_without_water_cost_nothing(shot, monkeypatch):
     assert during == [{1}, {1, 2}, {1, 2}, {1, 2}]
     scene.frame_set(4)
     assert ocean_object.plan(ocean, scene).tiles == "none"
+
+
+@pytest.mark.parametrize(("at_the_frame", "within_the_shutter"), [(70.0, 150.0), (150.0, 70.0)])
+def test_a_frame_s_decision_holds_while_its_shutter_is_open(shot, monkeypatch, at_the_frame, within_the_shutter):
+    """A camera that turns from the sea to the sky within the shutter sees water that moves all the time; one that
+    turns to the sea sees none that begins to."""
+    ocean, scene = shot
+    ocean.ocean_lod.effects.velocity = "off"  # so that Cycles asks for the instants of the shutter
+    camera = scene.camera
+    for frame, degrees in ((1.7, within_the_shutter), (2.0, at_the_frame), (2.3, within_the_shutter)):
+        camera.rotation_euler[0] = math.radians(degrees)
+        camera.keyframe_insert("rotation_euler", frame=frame)
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 0.8
+    scene.frame_set(2)
+    rendering, evaluated = [], set()
+    whole = FrameKernel.evaluate
+
+    def counted(*arguments, **more):
+        if rendering:
+            evaluated.add(round(scene.frame_current_final, 3))
+        return whole(*arguments, **more)
+
+    monkeypatch.setattr(FrameKernel, "evaluate", counted)
+    begin, end = bpy.app.handlers.render_pre, bpy.app.handlers.render_post
+    begin.append(lambda *_: rendering.append(True))
+    end.append(lambda *_: rendering.clear())
+    try:
+        bpy.ops.render.render()
+    finally:
+        begin.pop()
+        end.pop()
+    if at_the_frame == 70.0:
+        assert {1.6, 2.0, 2.4} <= evaluated
+    else:
+        assert not evaluated

@@ -36,7 +36,7 @@ class Extent:
 _GRID = Grid(cells=64, levels=8)
 """Small: what an effect that is off still took would show beside it."""
 
-QUICK = Extent(_GRID, 120, (Picture("CYCLES", (96, 54), 4, renders=4),))
+QUICK = Extent(_GRID, 80, (Picture("CYCLES", (96, 54), 4, renders=4),))
 FULL = Extent(_GRID, 240, (Picture("CYCLES", (96, 54), 4, renders=9), Picture("EEVEE", (64, 36), 1, renders=3)))
 """EEVEE may have to do without a graphics processor, and compiles its shaders for every picture."""
 
@@ -61,11 +61,11 @@ class Row:
             "effect": self.effect,
             "label": self.label,
             "frame_ms": _milliseconds(self.frame),
-            "frame_off_over_absent": _ratios(self.frame),
+            "frame_off_over_absent": report.off_over_absent(self.frame),
             "memory_bytes": self.memory,
             "render_ms": {engine: _milliseconds(states) for engine, states in self.pictures.items()},
             "render_off_over_absent": {
-                engine: _ratios(states) for engine, states in self.pictures.items()
+                engine: report.off_over_absent(states) for engine, states in self.pictures.items()
             },
         }
 
@@ -74,16 +74,12 @@ def _milliseconds(states):
     return {state: 1e3 * timing.median() for state, timing in states.items()}
 
 
-def _ratios(states):
-    over = report.off_over_absent(states)
-    return {"medians": over.of_medians, "fastest": over.of_minima}
-
-
 @dataclass(frozen=True, eq=False)
 class Results:
     """Everything that was measured."""
 
     machine: Machine
+    disturbance: str
     vertices: int
     rows: list[Row]
 
@@ -92,6 +88,7 @@ class Results:
         return {
             "schema_version": _SCHEMA_VERSION,
             "machine": self.machine.as_mapping(),
+            "disturbance": self.disturbance,
             "vertices": self.vertices,
             "effects": [row.as_mapping() for row in self.rows],
         }
@@ -134,10 +131,11 @@ def measure_effects(extent: Extent, names=NAMES) -> Results:
         rows.append(_measure(name, extent))
         print(report.line(rows[-1]), flush=True)
     print("\n" + "\n".join(report.verdicts(rows)), flush=True)
-    if disturbance():
-        print(f"\n{disturbance()}")
+    disturbed = disturbance()
+    if disturbed:
+        print(f"\n{disturbed}")
     print(f"\nmeasured in {time.perf_counter() - started:.0f} s", flush=True)
-    return Results(machine, extent.grid.vertex_count, rows)
+    return Results(machine, disturbed, extent.grid.vertex_count, rows)
 
 
 def _measure(effect, extent):
