@@ -28,8 +28,9 @@ def ensure_attributes(mesh, ocean: Ocean) -> None:
 
 def write_static(mesh, surface: Surface) -> None:
     """Write what depends on settings alone, where there are ripples."""
-    if surface.bump is not None and mesh_arrays.has_ripple_attributes(mesh):
-        mesh_arrays.write_ripple_amplitudes(mesh, surface.bump.amplitudes())
+    bump = surface.bump
+    if bump is not None and mesh_arrays.has_ripple_attributes(mesh, bump.layout.handed_over):
+        mesh_arrays.write_ripple_amplitudes(mesh, bump.amplitudes())
 
 
 def is_shown(material) -> bool:

@@ -77,11 +77,11 @@ def write_floats(mesh, name: str, values: np.ndarray) -> None:
 
 def ensure_ripple_attributes(mesh, bands: int) -> None:
     """Attributes for ripples of which this many bands are shown by the mesh in part; not for handlers."""
-    wanted = {f"{RIPPLE_AMPLITUDE}{number}": "FLOAT_COLOR" for number in range(-(-bands // 4))}
+    wanted = _ripple_attributes(bands)
     remove_ripple_attributes(mesh, keep=wanted)
-    for name, kind in wanted.items():
+    for name in wanted:
         if name not in mesh.attributes:
-            mesh.attributes.new(name, kind, "POINT")
+            mesh.attributes.new(name, "FLOAT_COLOR", "POINT")
             mesh.pop(_FINGERPRINT, None)
 
 
@@ -107,9 +107,18 @@ def write_gusts(mesh, variance: np.ndarray, factor: np.ndarray) -> None:
     mesh.attributes[GUST].data.foreach_set("value", factor)
 
 
-def has_ripple_attributes(mesh) -> bool:
-    """Whether the mesh has the attributes that ripples need: a frame in which they come into sight has not."""
-    return REST_POSITION in mesh.attributes
+def has_ripple_attributes(mesh, bands: int) -> bool:
+    """Whether the mesh has the attributes for ripples of which it shows this many bands in part.
+
+    A frame in which ripples come into sight has not.
+    """
+    return REST_POSITION in mesh.attributes and all(
+        name in mesh.attributes for name in _ripple_attributes(bands)
+    )
+
+
+def _ripple_attributes(bands):
+    return [f"{RIPPLE_AMPLITUDE}{number}" for number in range(-(-bands // 4))]
 
 
 def write_ripple_amplitudes(mesh, amplitudes: np.ndarray) -> None:

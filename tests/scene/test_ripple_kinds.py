@@ -104,9 +104,14 @@ def test_the_sea_is_not_black(ocean, change):
     assert read_pixels(path)[..., :3].mean() > 0.02
 
 
-def test_a_camera_that_comes_down_to_the_water(ocean):
-    """Truth: ripples that come into sight in a frame break nothing; their attributes wait for a render."""
+@pytest.mark.parametrize("foam", ["off", "on"])
+def test_a_camera_that_comes_down_to_the_water(ocean, foam):
+    """Truth: ripples that come into sight in a frame break nothing; their attributes wait for a render.
+
+    Foam looks up undisturbed positions as well: that these are there says nothing about the ripples.
+    """
     scene = bpy.context.scene
+    ocean.ocean_lod.effects.foam = foam
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.location.z = 1e5
     scene.collection.objects.link(camera)
