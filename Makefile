@@ -24,7 +24,7 @@ TESTS ?=
 # Passed on to the benchmark, for example: make bench BENCH=--full
 BENCH ?=
 
-.PHONY: help demo test test-5.2 test-4.5 fuzz fuzz-5.2 fuzz-4.5 hard-cases lint bench bench-without-blas cost effects zip clean \
+.PHONY: help demo test test-5.2 test-4.5 fuzz fuzz-5.2 fuzz-4.5 hard-cases lint bench bench-without-blas cost effects sea-checks zip clean \
 	environment-blender-5.2 environment-blender-4.5 \
 	environment-lint
 
@@ -38,6 +38,7 @@ help:
 	@echo 'make bench-without-blas    the same, and with a NumPy without BLAS, which it compiles'
 	@echo 'make cost    measure what accuracy costs in time, into docs/accuracy-and-cost.md'
 	@echo 'make effects measure what each effect takes, on and off, into docs/effects.md'
+	@echo 'make sea-checks  look for repetition and flicker in pictures of the sea, into out/'
 	@echo 'make zip     build the extension, to install in Blender, in dist/'
 	@echo 'make clean   remove the environments and everything that was built'
 
@@ -100,6 +101,13 @@ cost: environment-blender-5.2
 effects: environment-blender-5.2
 	$(BLENDER_5.2) -m ocean_lod_addon effects $(EFFECTS) --output out/effects.json
 	$(BLENDER_5.2) tools/effects_document.py out/effects.json
+
+# Passed on to both checks, for example: make sea-checks SEA_CHECKS="--engine EEVEE --width 128"
+SEA_CHECKS ?=
+
+sea-checks: environment-blender-5.2
+	$(BLENDER_5.2) -m tools.sea_checks repetition --save out $(SEA_CHECKS)
+	$(BLENDER_5.2) -m tools.sea_checks flicker --save out $(SEA_CHECKS)
 
 zip: environment-blender-5.2
 	$(BLENDER_5.2) tools/extension.py

@@ -18,7 +18,7 @@ import numpy as np
 from ocean_lod_addon.core import presets
 from ocean_lod_addon.core.shot import Shot
 
-from .scenes import add_ocean, luminance, new_scene, save_gray
+from .scenes import add_ocean, luminance, new_scene, save_gray, stretched
 
 LIMIT = 1.5
 SUPERSAMPLING = 8
@@ -75,7 +75,7 @@ def change(engine: str, band: Band, samples: int, factor: int, save: Path | None
             frames.append(np.minimum(squares.mean(axis=(1, 3)), 1.0))  # as they are seen: glitter is white
         films.append(frames)
     if save is not None:
-        save_gray(save, films[0][0])
+        save_gray(save, stretched(films[0][0]))
     changes = np.diff(films, axis=1)
     water = max(float(np.mean(changes[0] * changes[-1])), 0.0)
     return Change(float(np.mean(films)), float(np.sqrt(water)), float(np.sqrt(np.mean(changes**2))))

@@ -21,7 +21,7 @@ from ocean_lod_addon.core.shot import Shot
 from ocean_lod_addon.scene import ocean_object
 
 from .correlation import correlation, expected, highest_beyond, slope_correlation
-from .scenes import add_ocean, luminance, new_scene, save_gray
+from .scenes import add_ocean, luminance, new_scene, save_gray, stretched
 
 LIMIT = 0.1
 
@@ -104,7 +104,7 @@ def run(options) -> None:
     pixel = WIDTH / options.pixels
     perfect = expected(slope_correlation(SEA, 0.0, options.pixels, pixel), pixel)
     print(f"waves know of each other up to {perfect.length:.0f} m; beyond, chance leaves {perfect.chance:.3f}")
-    found = []
+    found, shown = [], []
     for name in OCEANS:
         pictures = look(name, options.engine, options.pixels, options.samples)
         correlations = correlation(*pictures)
@@ -112,13 +112,10 @@ def run(options) -> None:
         found.append(Repetition(name, peak.value, peak.shift))
         x, y = peak.shift
         print(f"{name:<32} highest autocorrelation {peak.value:.3f}, at ({x:.0f}, {y:.0f}) m", flush=True)
-        if options.save:
-            stem = name.replace(",", "").replace(" ", "_")
-            save_gray(Path(options.save) / f"{stem}.png", pictures.mean(axis=0))
-            shown = np.clip(correlations, -LIMIT, 2.0 * LIMIT)
-            save_gray(Path(options.save) / f"{stem}_autocorrelation.png", shown)
+        shown.append(np.vstack([np.abs(correlations), stretched(pictures.mean(axis=0))]))
     passed = found[0].highest <= LIMIT
     print(f"{'PASS' if passed else 'MISS'}: {found[0].highest:.3f}, allowed is {LIMIT:g}")
     if options.save:
+        save_gray(Path(options.save) / "repetition.png", np.hstack([shown[0], shown[-1]]).clip(0.0, 1.0))
         report = {"limit": LIMIT, "perfect": asdict(perfect), "oceans": [asdict(each) for each in found]}
         (Path(options.save) / "repetition.json").write_text(json.dumps(report, indent=2) + "\n")

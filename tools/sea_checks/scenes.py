@@ -64,10 +64,14 @@ def luminance(scene) -> np.ndarray:
     return rgb @ (0.2126, 0.7152, 0.0722) * 2.0**scene.view_settings.exposure
 
 
-def save_gray(path: Path, picture: np.ndarray):
-    """A PNG of brightnesses stretched from their darkest to their brightest hundredth."""
+def stretched(picture: np.ndarray) -> np.ndarray:
+    """From 0 at the darkest hundredth of a picture to 1 at the brightest."""
     low, high = np.quantile(picture, (0.01, 0.99))
-    gray = np.clip((picture - low) / max(high - low, 1e-9), 0.0, 1.0)
+    return np.clip((picture - low) / max(high - low, 1e-9), 0.0, 1.0)
+
+
+def save_gray(path: Path, gray: np.ndarray):
+    """A PNG of brightnesses from 0 to 1, rows upwards."""
     pixels = np.repeat(gray[..., None], 4, axis=-1)
     pixels[..., 3] = 1.0
     image = bpy.data.images.new("gray", picture.shape[1], picture.shape[0])
