@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pixels at the horizon cover hundreds of waves; what they show of them does not flicker while the camera moves."""
+"""Pixels at the horizon cover hundreds of waves: what they show of them does not flicker as the camera moves."""
 
 import pytest
 
@@ -10,8 +10,8 @@ pytestmark = pytest.mark.render
 
 def test_frames_flicker_no_more_than_supersampled_ones():
     """Truth: frames of 64 times as many pixels, scaled down. Noise is taken off both; what is left of it, and that
-    this is one change of few pixels, makes either uncertain by a fifth. That the water does move, and
-    is not lost in the noise, is seen by the reference."""
+    this is one change of few pixels, makes either uncertain by a fifth. The reference shows that the water moves,
+    and that its changes are not lost in noise."""
     band = Band(width=96, rows=5, columns=32, frames=2)
     frames, reference = (change("CYCLES", band, samples, factor) for factor, samples in ((1, 32), (8, 1)))
     assert reference.water > 0.5 * reference.with_noise

@@ -74,7 +74,7 @@ def save_gray(path: Path, gray: np.ndarray):
     """A PNG of brightnesses from 0 to 1, rows upwards."""
     pixels = np.repeat(gray[..., None], 4, axis=-1)
     pixels[..., 3] = 1.0
-    image = bpy.data.images.new("gray", picture.shape[1], picture.shape[0])
+    image = bpy.data.images.new("gray", gray.shape[1], gray.shape[0])
     image.pixels.foreach_set(pixels.astype(np.float32).ravel())
     image.filepath_raw, image.file_format = str(path), "PNG"
     image.save()
