@@ -19,8 +19,8 @@ FRAME_MARGIN = 40.0
 _HEADER_HEIGHT = 32.0
 _ROW_HEIGHT = 22.0
 _CHARACTER_WIDTH = 7.0
-_TITLE_MARGIN, _SOCKET_MARGIN, _SELECTOR_MARGIN = 36.0, 30.0, 84.0
-"""Room beside a node's title, a socket's name, and the name of a group among the buttons beside it."""
+_TITLE_MARGIN, _SOCKET_MARGIN, _SELECTOR_MARGIN = 36.0, 30.0, 112.0
+"""Room beside a node's title, a socket's name, and the name of a group among its buttons and number of users."""
 
 _VALUE_CHARACTERS = 8
 """Room that a number or a color takes beside the name of its socket."""

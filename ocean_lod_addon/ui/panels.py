@@ -253,7 +253,11 @@ class OCEAN_LOD_PT_material(_OceanPanel, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        draw_settings(layout, context.object.ocean_lod.material, parameters_of(MaterialSettings))
+        material = context.object.ocean_lod.material
+        for parameter in parameters_of(MaterialSettings):
+            row = layout.row()
+            row.active = parameter != "eevee_depth" or material.see_through
+            draw_settings(row, material, (parameter,))
 
 
 CLASSES = (

@@ -48,7 +48,7 @@ TINY = measurements.Plan(
     view_grid=Grid(cells=32, levels=3),
     swim_grid=Grid(cells=64, levels=6),
     swim_frames=3,
-    shading=(EnginePlan("CYCLES", (16, 9), 2),),
+    shading=(EnginePlan("CYCLES", (16, 9), 2, rounds=1),),
     rounds=1,
 )
 

@@ -27,18 +27,24 @@ _FEW = 1
 
 @dataclass(frozen=True)
 class EnginePlan:
-    """How much of an engine is measured: the picture's size in pixels, and the samples of the longer render."""
+    """How much of an engine is measured: picture, samples of the longer render, what is on the mesh, how often."""
 
     engine: str  # CYCLES or EEVEE
-    resolution: tuple[int, int]
+    resolution: tuple[int, int]  # pixels
     many: int
+    materials: tuple[str, ...] = MATERIALS
+    rounds: int = 5
 
 
-QUICK = (EnginePlan("CYCLES", (160, 90), 17), EnginePlan("EEVEE", (64, 36), 9))
-FULL = (EnginePlan("CYCLES", (320, 180), 17), EnginePlan("EEVEE", (160, 90), 9))
-"""EEVEE may have to do without a graphics processor, and compiles its shaders for every picture."""
+QUICK = (
+    EnginePlan("CYCLES", (160, 90), 17, rounds=2),
+    EnginePlan("EEVEE", (32, 18), 5, (GLOSSY, WATER), rounds=1),
+)
+FULL = (EnginePlan("CYCLES", (320, 180), 17, rounds=9), EnginePlan("EEVEE", (64, 36), 9, rounds=3))
+"""EEVEE may have to do without a graphics processor: it then takes a second a sample, and compiles its shaders for
+every picture, those with ripples for half a minute."""
 
-_GRID = Grid(cells=128)
+_GRID = Grid(cell_size=0.4, cells=32)
 """Coarser than the menu's: the mesh is not what is measured."""
 
 
@@ -63,20 +69,23 @@ class ShadingResult:
         }
 
 
-def measure_shading(plans: tuple[EnginePlan, ...], rounds: int) -> ShadingResult:
-    """A default sea in a default shot, with each material in turn."""
+def measure_shading(plans: tuple[EnginePlan, ...]) -> ShadingResult:
+    """A default sea in a default shot, with each material of a plan in turn."""
     seconds = {}
     with fresh_data():
         scene, materials = build()
         for plan in plans:
             render.set_engine(scene, plan.engine)
             scene.render.resolution_x, scene.render.resolution_y = plan.resolution
+            materials[GLOSSY](None)
             try:
                 _render(scene, _FEW)
             except RuntimeError as error:
                 print(f"    {plan.engine} does not render here: {str(error).strip()}", flush=True)
                 continue
-            timings = measure([_contestant(scene, *item, plan.many) for item in materials.items()], rounds)
+            shown = [name for name in plan.materials if name in materials]
+            contestants = [_contestant(scene, name, materials[name], plan.many) for name in shown]
+            timings = measure(contestants, plan.rounds)
             width, height = plan.resolution
             seconds[plan.engine] = {
                 name: sample_seconds(timing, plan.many) / (width * height) for name, timing in timings.items()

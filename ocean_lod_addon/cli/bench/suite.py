@@ -81,7 +81,7 @@ def measure_and_print(plan: Plan, contraction: str, with_blender: bool) -> Resul
         title = f"The ocean of the Add menu ({Grid().vertex_count} vertices, {Sea().wave_count} waves)"
         _print_section(title, [report.menu_ocean_line(menu_ocean)])
 
-    in_renders = shading.measure_shading(plan.shading, plan.rounds) if with_blender else None
+    in_renders = shading.measure_shading(plan.shading) if with_blender else None
     if in_renders is not None:
         _print_section("Milliseconds per sample of a million pixels", report.shading_lines(in_renders))
 
