@@ -41,8 +41,8 @@ QUICK = (
     EnginePlan("EEVEE", (32, 18), 5, (GLOSSY, WATER), rounds=1),
 )
 FULL = (EnginePlan("CYCLES", (320, 180), 17, rounds=9), EnginePlan("EEVEE", (64, 36), 9, rounds=3))
-"""EEVEE may have to do without a graphics processor: it then takes a second a sample, and compiles its shaders for
-every picture, those with ripples for half a minute."""
+"""EEVEE may have to do without a graphics processor: it then takes about a second a sample, and compiles its
+shaders for every picture, those with ripples longest."""
 
 _GRID = Grid(cell_size=0.4, cells=32)
 """Coarser than the menu's: the mesh is not what is measured."""
