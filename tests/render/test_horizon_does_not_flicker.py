@@ -3,7 +3,7 @@
 
 import pytest
 
-from tools.sea_checks.flicker import LIMIT, Band, change
+from tools.sea_checks.flicker import LIMIT, Band, change, dolly
 
 pytestmark = pytest.mark.render
 
@@ -13,7 +13,8 @@ def test_frames_flicker_no_more_than_supersampled_ones():
     this is one change of few pixels, makes either uncertain by a fifth. The reference shows that the water moves,
     and that its changes are not lost in noise."""
     band = Band(width=96, rows=5, columns=32, frames=2)
-    frames, reference = (change("CYCLES", band, samples, factor) for factor, samples in ((1, 32), (8, 1)))
+    scene = dolly("CYCLES", band)
+    frames, reference = (change(scene, band, samples, factor) for factor, samples in ((1, 32), (8, 1)))
     assert reference.water > 0.5 * reference.with_noise
     assert frames.mean == pytest.approx(reference.mean, rel=0.2)
     assert frames.water <= LIMIT * reference.water

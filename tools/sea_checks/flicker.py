@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ocean_lod_addon.cli.render import set_samples
 from ocean_lod_addon.core import presets
 from ocean_lod_addon.core.shot import Shot
 
@@ -48,20 +49,27 @@ class Change:
     with_noise: float
 
 
-def change(engine: str, band: Band, samples: int, factor: int, save: Path | None = None) -> Change:
-    """The changes in frames of `factor` x `factor` as many pixels, scaled down."""
+def dolly(engine: str, band: Band):
+    """The scene: an ocean fitted to a camera whose frames are `band.width` pixels wide."""
     preset = presets.load("moderate")
     shot = Shot(camera_height=3.0, camera_pitch=0.0, exposure=_EXPOSURE)
-    height = band.width * 9 // 16
-    scene = new_scene(shot, engine, band.width * factor, height * factor, samples)
+    scene = new_scene(shot, engine, band.width, band.width * 9 // 16, samples=1)
     add_ocean(scene, preset.sea, band.width, preset.material)
+    return scene
+
+
+def change(scene, band: Band, samples: int, factor: int, save: Path | None = None) -> Change:
+    """The changes in frames of `factor` x `factor` as many pixels, scaled down."""
+    set_samples(scene, samples)
     render = scene.render
+    height = band.width * 9 // 16
+    render.resolution_x, render.resolution_y = band.width * factor, height * factor
     render.use_border = render.use_crop_to_border = True
     half = 0.5 * band.columns / band.width
     render.border_min_x, render.border_max_x = 0.5 - half, 0.5 + half
     top = 0.5 - _BELOW_HORIZON / height
     render.border_min_y, render.border_max_y = top - band.rows / height, top
-    seeds = (1, 2) if engine == "CYCLES" else (1,)
+    seeds = (1, 2) if render.engine == "CYCLES" else (1,)
     films = []
     for seed in seeds:
         frames = []
@@ -85,11 +93,11 @@ def run(options) -> None:
     """Print the change of the frames, of the reference, and their ratio, and save pictures and numbers."""
     band = Band(options.width, options.rows, options.columns, options.frames)
     folder = Path(options.save) if options.save else None
-    found = {}
+    found, scene = {}, dolly(options.engine, band)
     for name, factor in (("frames", 1), ("reference", SUPERSAMPLING)):
         samples = options.samples if factor == 1 else max(1, options.samples * 4 // factor**2)
         picture = folder / f"flicker_{options.engine}_{name}.png" if folder else None
-        each = found[name] = change(options.engine, band, samples, factor, picture)
+        each = found[name] = change(scene, band, samples, factor, picture)
         print(
             f"{name:<10} mean {each.mean:.4f}, rms change from frame to frame {each.water:.5f},"
             f" with noise {each.with_noise:.5f}",
