@@ -16,6 +16,7 @@ import pytest
 import ocean_lod_addon
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.scene import ocean_object
+from tests.fresh_ocean import fresh_ocean
 
 from .exr import read_pixels
 
@@ -28,11 +29,7 @@ STEPS = 8  # instants that EEVEE renders; between them it smears pictures along 
 @pytest.fixture
 def crest(tmp_path):
     """The scene, the ocean and its one steep wave."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    if not hasattr(bpy.types.Object, "ocean_lod"):
-        ocean_lod_addon.register()
-    bpy.ops.mesh.ocean_lod_add(preset="moderate", cells=32, levels=1, cell_size=0.5)
-    ocean, scene = bpy.context.object, bpy.context.scene
+    ocean, scene = fresh_ocean(cells=32, levels=1, cell_size=0.5)
     settings = ocean.ocean_lod
     settings.ripples.kind, settings.effects.foam = "off", "off"
     system = settings.sea.systems[0]

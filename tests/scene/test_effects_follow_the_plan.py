@@ -15,6 +15,7 @@ from ocean_lod_addon.core.kernel import FrameKernel
 from ocean_lod_addon.core.ripples.bump import Bump
 from ocean_lod_addon.scene import mesh as mesh_arrays
 from ocean_lod_addon.scene import ocean_object
+from tests.fresh_ocean import fresh_ocean
 
 EFFECT_ATTRIBUTES = {"custom_normal", "velocity", "ocean_foam", "ocean_foam_whitecaps", "ocean_rest_position"}
 FOAM = {"ocean_foam", "ocean_foam_whitecaps", "ocean_rest_position"}
@@ -23,11 +24,7 @@ FOAM = {"ocean_foam", "ocean_foam_whitecaps", "ocean_rest_position"}
 @pytest.fixture
 def shot(tmp_path):
     """An ocean and a camera in Cycles, where a picture is 16 x 16."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    if not hasattr(bpy.types.Object, "ocean_lod"):
-        ocean_lod_addon.register()
-    bpy.ops.mesh.ocean_lod_add(preset="moderate", cells=32, levels=4, cell_size=0.25)
-    ocean, scene = bpy.context.object, bpy.context.scene
+    ocean, scene = fresh_ocean(cells=32, levels=4, cell_size=0.25)
     ocean.ocean_lod.ripples.kind = "off"
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.rotation_euler = (math.radians(70), 0.0, math.radians(-90))

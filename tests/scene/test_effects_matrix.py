@@ -22,6 +22,7 @@ from ocean_lod_addon.nodes.groups import GROUP_KEY
 from ocean_lod_addon.nodes.ripple_parts import PIXEL_PROPERTY
 from ocean_lod_addon.scene import ocean_object, properties
 from ocean_lod_addon.scene.ripple_images import IMAGE_KEY
+from tests.fresh_ocean import fresh_ocean
 from tests.render.exr import read_pixels
 
 EFFECTS = tuple(parameters_of(Effects))
@@ -51,11 +52,7 @@ def test_rows_hold_every_pair_of_choices():
 @pytest.fixture(scope="module")
 def shot(tmp_path_factory):
     """An ocean where every effect can be on, and what an ocean without effects consists of."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    if not hasattr(bpy.types.Object, "ocean_lod"):
-        ocean_lod_addon.register()
-    bpy.ops.mesh.ocean_lod_add(preset="moderate", cells=32, levels=2, cell_size=0.5)
-    ocean, scene = bpy.context.object, bpy.context.scene
+    ocean, scene = fresh_ocean(cells=32, levels=2, cell_size=0.5)
     ocean.ocean_lod.material.sun_model = "formula"  # where Cycles shows skewed slopes
     ripples = ocean.ocean_lod.ripples
     ripples.resolution, ripples.longest_wavelength, ripples.shortest_wavelength = "256", 4.0, 1.0
