@@ -6,14 +6,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..core import presets
-from ..core.discretise import discretise
 from ..core.effects import Effects
 from ..core.foam_settings import Foam
 from ..core.framing import Framing
-from ..core.lod import Grid
 from ..core.plan import Facts, Plan, Settings, decide
-from ..core.ripple_settings import Ripples
-from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, fit_ripples, frame_needs
+from ..core.shot_fit import first_fit, frame_needs
 from .arguments import real_number, resolution, whole_number
 from .setting_options import add_setting_options, given_settings
 
@@ -58,14 +55,13 @@ def preset_plan(options) -> Plan:
     """The plan for a preset's first shot, on the plane that `render` would make for it."""
     preset = presets.load(options.preset)
     needs = frame_needs(preset.shot.view(*options.resolution), options.resolution[0])
-    grid = fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE)
-    waves = discretise(preset.sea, grid.shortest_wavelength)
+    grid, ripples, waves = first_fit(preset.sea, needs)
     settings = Settings(
         preset.sea,
         grid,
         Framing(),
         preset.material,
-        fit_ripples(Ripples(), [needs], grid.shortest_wavelength, waves),
+        ripples,
         replace(preset.foam, **given_settings(options, Foam)),
         Effects(**given_settings(options, Effects)),
     )

@@ -9,12 +9,9 @@ from pathlib import Path
 
 from ..core import presets
 from ..core.cost.quality import QUALITIES
-from ..core.discretise import discretise
 from ..core.errors import OceanError
-from ..core.lod import Grid
-from ..core.ripple_settings import Ripples
 from ..core.sea import LARGEST_SEED
-from ..core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, fit_ripples, frame_needs
+from ..core.shot_fit import first_fit, frame_needs
 from .arguments import FrameRange, frame_range, real_number, resolution, whole_number
 
 NAME = "render"
@@ -144,10 +141,8 @@ def _build(options):
     shot_scene.build(scene, preset.shot)
     bpy.context.view_layer.update()
     needs = frame_needs(placing.view_of(scene.camera, scene), scene.render.resolution_x)
-    grid = fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE)
     sea = presets.with_seed(preset.sea, options.seed)
-    waves = discretise(sea, grid.shortest_wavelength)
-    ripples = fit_ripples(Ripples(), [needs], grid.shortest_wavelength, waves)
+    grid, ripples, _ = first_fit(sea, needs)
     ocean = ocean_object.create(scene, sea, grid, preset.material, ripples=ripples, foam=preset.foam)
     scene.collection.objects.link(ocean)
     return scene

@@ -56,6 +56,12 @@ REST_POSITION_ATTRIBUTE = "ocean_rest_position"
 RIPPLE_AMPLITUDE_ATTRIBUTE = "ocean_ripple_amplitude_"
 """Point attributes, FLOAT_COLOR, numbered from 0: what the mesh leaves of each band to the ripples, by fours."""
 
+
+def ripple_attributes(bands: int) -> tuple[str, ...]:
+    """Names of the attributes for ripples of which the mesh shows this many bands in part."""
+    return tuple(f"{RIPPLE_AMPLITUDE_ATTRIBUTE}{number}" for number in range(-(-bands // 4)))
+
+
 GUST_ATTRIBUTE = "ocean_gust"
 """Point attribute, FLOAT: what gusts multiply the slopes of ripples by."""
 
@@ -168,12 +174,8 @@ class Plan:
             *((FOAM_ATTRIBUTE, WHITECAPS_ATTRIBUTE) if self.on("foam") else ()),
             *((REST_POSITION_ATTRIBUTE,) if self.on("foam") or self.on("ripples") else ()),
             *((GUST_ATTRIBUTE,) if self.on("gusts") else ()),
-            *(f"{RIPPLE_AMPLITUDE_ATTRIBUTE}{number}" for number in range(self._amplitude_attributes)),
+            *(ripple_attributes(self.ripple_layout.handed_over) if self.ripple_layout else ()),
         )
-
-    @property
-    def _amplitude_attributes(self):
-        return -(-self.ripple_layout.handed_over // 4) if self.ripple_layout else 0
 
     @property
     def images(self) -> int:

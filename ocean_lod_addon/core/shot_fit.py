@@ -4,15 +4,18 @@ horizon."""
 
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from .camera_view import CameraView, nearest_visible_water
 from .constants import EARTH_RADIUS
+from .discretise import discretise
 from .errors import OceanError
 from .lod import CELLS_STEP, Grid
 from .parameters import parameters_of
 from .ripple_settings import Ripples
+from .sea import Sea
 from .waves import TWO_PI, WaveSet
 
 _MOST_CELLS, _FEWEST_CELLS = 1024, 64
@@ -112,6 +115,21 @@ def fit_ripples(ripples: Ripples, needs: list[ShotNeeds], shortest_resolved: flo
 
 def _within(parameter, value: float) -> float:
     return min(max(value, parameter.minimum), parameter.maximum)
+
+
+class FirstFit(NamedTuple):
+    """What suits a shot that nobody has sized anything for yet; `waves` are the sea's on this plane."""
+
+    grid: Grid
+    ripples: Ripples
+    waves: WaveSet
+
+
+def first_fit(sea: Sea, needs: ShotNeeds) -> FirstFit:
+    """The plane and the ripples for one frame, from their defaults."""
+    grid = fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE)
+    waves = discretise(sea, grid.shortest_wavelength)
+    return FirstFit(grid, fit_ripples(Ripples(), [needs], grid.shortest_wavelength, waves), waves)
 
 
 CURVATURE_PIXELS = 2.0

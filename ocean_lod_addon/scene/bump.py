@@ -10,7 +10,6 @@ from ..nodes.material import MATERIAL_KEY
 from ..nodes.ripple_parts import PIXEL_PROPERTY
 from ..nodes.ripples_material import RIPPLES_NODE_NAME, hide_ripples, set_ripple_values, show_ripples
 from . import mesh as mesh_arrays
-from . import placing
 from .ripple_images import ensure_images, find_images, fit, remove_images, write_images
 
 _DEFAULT_PIXEL_ANGLE = 36.0 / 35.0 / 1920.0
@@ -67,10 +66,9 @@ def forget_pixel(ob) -> None:
     ob.pop(PIXEL_PROPERTY, None)
 
 
-def update_pixel(ob, scene, depsgraph=None) -> None:
-    """Tell the material how large a pixel of the scene's camera is on the water; for every frame."""
-    evaluated = ob if depsgraph is None else ob.evaluated_get(depsgraph)
-    pixel = (*pixel_width(placing.camera_view(evaluated, scene, depsgraph), scene), 0.0)
+def update_pixel(ob, scene, view: CameraView | None) -> None:
+    """Tell the material how large a pixel of a camera is on the water; for every frame."""
+    pixel = (*pixel_width(view, scene), 0.0)
     if tuple(ob.get(PIXEL_PROPERTY, ())) != pixel:
         ob[PIXEL_PROPERTY] = pixel
         ob.update_tag()

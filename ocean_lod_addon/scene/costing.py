@@ -140,8 +140,9 @@ def predict(ob, scene, settings=None, final: bool = True) -> dict[str, float]:
     if _machine.model is None:
         return {}
     settings = settings or planning.read_settings(ob, scene)
-    facts = planning.scene_facts(ob, scene, settings, final=final)
-    return _machine.model.predict(planned_work(facts, settings, placing.camera_view(ob, scene)))
+    view = placing.camera_view(ob, scene)
+    facts = planning.scene_facts(ob, scene, settings, view, final)
+    return _machine.model.predict(planned_work(facts, settings, view))
 
 
 def set_quality(ob, scene, name: str, quality: Quality | None = None) -> None:

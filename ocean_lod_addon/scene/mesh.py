@@ -7,6 +7,7 @@ from ..core.lod import Grid, topology
 from ..core.plan import GUST_ATTRIBUTE as GUST
 from ..core.plan import REST_POSITION_ATTRIBUTE as REST_POSITION
 from ..core.plan import RIPPLE_AMPLITUDE_ATTRIBUTE as RIPPLE_AMPLITUDE
+from ..core.plan import ripple_attributes
 
 SLOPE_VARIANCE = "ocean_slope_variance"
 """Point attribute, FLOAT_VECTOR: unresolved slope variance (xx, yy, xy) in the object's axes, for shading."""
@@ -77,7 +78,7 @@ def write_floats(mesh, name: str, values: np.ndarray) -> None:
 
 def ensure_ripple_attributes(mesh, bands: int) -> None:
     """Attributes for ripples of which this many bands are shown by the mesh in part; not for handlers."""
-    wanted = _ripple_attributes(bands)
+    wanted = ripple_attributes(bands)
     remove_ripple_attributes(mesh, keep=wanted)
     for name in wanted:
         if name not in mesh.attributes:
@@ -113,21 +114,17 @@ def has_ripple_attributes(mesh, bands: int) -> bool:
     A frame in which ripples come into sight has not.
     """
     return REST_POSITION in mesh.attributes and all(
-        name in mesh.attributes for name in _ripple_attributes(bands)
+        name in mesh.attributes for name in ripple_attributes(bands)
     )
-
-
-def _ripple_attributes(bands):
-    return [f"{RIPPLE_AMPLITUDE}{number}" for number in range(-(-bands // 4))]
 
 
 def write_ripple_amplitudes(mesh, amplitudes: np.ndarray) -> None:
     """Set the amplitudes, (vertices, bands) float32, of the bands that the mesh shows in part."""
-    for number, first in enumerate(range(0, amplitudes.shape[1], 4)):
+    for number, name in enumerate(ripple_attributes(amplitudes.shape[1])):
         four = np.zeros((len(amplitudes), 4), np.float32)
-        part = amplitudes[:, first : first + 4]
+        part = amplitudes[:, 4 * number : 4 * number + 4]
         four[:, : part.shape[1]] = part
-        mesh.attributes[f"{RIPPLE_AMPLITUDE}{number}"].data.foreach_set("color", four.ravel())
+        mesh.attributes[name].data.foreach_set("color", four.ravel())
 
 
 def ensure_rest_positions(mesh, wanted: bool) -> None:

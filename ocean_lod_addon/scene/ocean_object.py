@@ -144,7 +144,7 @@ def update(ob, scene, depsgraph) -> None:
         _write_surface(ob, surface, placement, time, with_velocity, stages)
         bump.update(ob, surface, time)
         if _looks_up_textures(planned.ocean):
-            bump.update_pixel(ob, scene, depsgraph)
+            bump.update_pixel(ob, scene, planned.view)
         stages.done("ripples")
     frame_times.keep(ob, stages)
 
@@ -164,7 +164,7 @@ def decide_frame(ob, scene, depsgraph):
         surface = _surface(planned.ocean)
         ocean_material.set_surroundings(ob, depsgraph.scene_eval, planned.ocean.sea)
         if kept is None or kept.grid != grid:
-            placement = surface.placement(placing.camera_view(evaluated, scene, depsgraph), final)
+            placement = surface.placement(planned.view, final)
             placement = placement if placement.sees_water else None
     if kept is None:
         placing.keep_decision(ob, scene, placing.FrameDecision(planned.plan, grid, placement))
@@ -251,7 +251,7 @@ def _rebuild_and_move(ob, scene):
         mesh_arrays.build_topology(ob.data, ocean.grid)
     _ensure_attributes(ob.data, planned)
     surface = _surface(ocean)
-    placement = surface.placement(placing.camera_view(ob, scene))
+    placement = surface.placement(planned.view)
     _write_surface(ob, surface, placement, scene_sea_time(ob, scene))
     return planned
 
@@ -343,7 +343,7 @@ def _apply_surface_nodes(ob, scene, ocean):
     if material is not None:
         foam.apply(material, ocean)
         if _looks_up_textures(ocean):
-            bump.update_pixel(ob, scene)
+            bump.update_pixel(ob, scene, placing.camera_view(ob, scene))
         else:
             bump.forget_pixel(ob)
         bump.apply(ob, material, _surface(ocean), scene_sea_time(ob, scene))

@@ -3,7 +3,7 @@
 
 import functools
 
-from ..core.camera_view import looks_down
+from ..core.camera_view import CameraView, looks_down
 from ..core.discretise import discretise
 from ..core.ocean import Ocean
 from ..core.placement import highest_wave
@@ -27,8 +27,9 @@ class PlannedOcean:
         A `plan` made before is followed instead of a new one.
         """
         settings = read_settings(ob, scene)
+        self.view = placing.camera_view(ob, scene, depsgraph)
         if plan is None:
-            facts = scene_facts(ob, scene, settings, depsgraph, final)
+            facts = scene_facts(ob, scene, settings, self.view, final)
             plan = decide(facts, settings, _waves(settings.sea, settings.grid.shortest_wavelength))
         used = effective(settings, plan)
         self.plan: Plan = plan
@@ -50,11 +51,10 @@ def read_settings(ob, scene) -> Settings:
     )
 
 
-def scene_facts(ob, scene, settings: Settings, depsgraph=None, final: bool = True) -> Facts:
-    """The facts around an (evaluated) ocean at the scene's current frame."""
+def scene_facts(ob, scene, settings: Settings, view: CameraView | None, final: bool = True) -> Facts:
+    """The facts around an (evaluated) ocean at the scene's current frame, seen by a camera."""
     render = scene.render
     waves = _waves(settings.sea, settings.grid.shortest_wavelength)
-    view = placing.camera_view(ob, scene, depsgraph)
     width = max(1, render.resolution_x * render.resolution_percentage // 100)
     blur = render.motion_blur_shutter / clock.frames_per_second(scene) if render.use_motion_blur else 0.0
     engine = "EEVEE" if render.engine.startswith(_EEVEE) else render.engine

@@ -9,13 +9,10 @@ import numpy as np
 
 import ocean_lod_addon
 from ocean_lod_addon.cli.render import set_engine, set_samples
-from ocean_lod_addon.core.discretise import discretise
-from ocean_lod_addon.core.lod import Grid
 from ocean_lod_addon.core.material_settings import MaterialSettings
-from ocean_lod_addon.core.ripple_settings import Ripples
 from ocean_lod_addon.core.sea import Sea
 from ocean_lod_addon.core.shot import Shot
-from ocean_lod_addon.core.shot_fit import HIGHEST_WAVE, PIXELS_PER_CELL, fit, fit_ripples, frame_needs
+from ocean_lod_addon.core.shot_fit import first_fit, frame_needs
 from ocean_lod_addon.scene import ocean_object, placing, shot_scene
 
 
@@ -40,9 +37,7 @@ def add_ocean(scene, sea: Sea, width: int, material: MaterialSettings | None = N
     """This extension's ocean, with plane and ripples fitted to the scene's camera and a picture of this width."""
     bpy.context.view_layer.update()
     needs = frame_needs(placing.view_of(scene.camera, scene), width)
-    grid = fit(Grid(), [needs], PIXELS_PER_CELL, HIGHEST_WAVE)
-    waves = discretise(sea, grid.shortest_wavelength)
-    ripples = fit_ripples(Ripples(), [needs], grid.shortest_wavelength, waves)
+    grid, ripples, _ = first_fit(sea, needs)
     ob = ocean_object.create(scene, sea, grid, material or MaterialSettings(), ripples=ripples)
     scene.collection.objects.link(ob)
     return ob

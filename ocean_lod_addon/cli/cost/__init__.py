@@ -106,7 +106,7 @@ def run(options) -> None:
     """Measure, print and save. Raises OceanError for bad arguments, before anything is measured."""
     with_blender = in_blender.is_available()
     if options.budget_ms is not None:
-        model, _ = _measured_model(with_blender)
+        model = _measured_model(with_blender)
         print(budgets.choose_for(model, 1e-3 * options.budget_ms).explain(), flush=True)
         return
     output = json_output(options.output)
@@ -120,20 +120,17 @@ def run(options) -> None:
 
 
 def _measured_model(with_blender):
-    """The prices of this machine, and how long it took to find them, s."""
-    start = time.perf_counter()
-    if with_blender:
-        import bpy
+    """The prices of this machine."""
+    if not with_blender:
+        return probe()
+    import bpy
 
-        from ... import register
-        from ...scene import costing
+    from ... import register
+    from ...scene import costing
 
-        if not hasattr(bpy.types.Object, "ocean_lod"):
-            register()
-        model = costing.measure_machine()
-    else:
-        model = probe()
-    return model, time.perf_counter() - start
+    if not hasattr(bpy.types.Object, "ocean_lod"):
+        register()
+    return costing.measure_machine()
 
 
 def _measure(options, output, with_blender):
@@ -141,11 +138,11 @@ def _measure(options, output, with_blender):
     machine = this_machine(with_blender)
     rounds = 5 if options.full else 3
     print(f"{machine}; matrix products by {fastest_contraction()}", flush=True)
-    model, probe_seconds = _measured_model(with_blender)
+    prices = SteadyPrices(lambda: _measured_model(with_blender))
+    model, probe_seconds = prices.model, prices.seconds_to_find
     _print(f"Prices, found in {probe_seconds:.1f} s", report.price_lines(model.prices))
 
     whole = configurations.measure_configurations(model, rounds, with_blender)
-    prices = SteadyPrices(lambda: _measured_model(with_blender)[0])
     tried = [budgets.try_budget(prices, budget, with_blender) for budget in budgets.BUDGETS]
     _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
     predictions, without_blas = _try_predictions(options, prices, rounds, with_blender)

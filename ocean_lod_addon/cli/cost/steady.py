@@ -63,7 +63,9 @@ class SteadyPrices:
         return result
 
     def _refresh(self):
+        start = time.perf_counter()
         self.model = self._find()
+        self.seconds_to_find = time.perf_counter() - start
         self._pace = self._yardstick.seconds()
 
     def _is_steady(self):
