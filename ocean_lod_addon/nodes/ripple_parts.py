@@ -115,7 +115,7 @@ def _build_look(graph: Graph):
 
 LOOK = GroupRecipe(
     "Ocean LOD Ripple Look",
-    "3",
+    "4",
     inputs=(REST_POSITION, CELLS_PER_METRE, SHIFT),
     outputs=(PLACE, WEIGHT),
     build=_build_look,

@@ -2,7 +2,7 @@
 """Node group "Ocean LOD Ripples": the bump level of one ocean.
 
 Per image of slopes, three looks at it: the water is covered by three square grids, shifted against each other by
-a third of a cell, and every cell looks at a place of its own in the image, of which it sees a quarter. Their
+a third of a cell, and every cell looks at a place of its own in the image, of which it sees a ninth. Their
 weights fade to 0 at the border of a cell, so that no border shows, and are normalised so that the variance is the
 same everywhere; where one grid has a border, another has not. So the image never repeats: two cells may see the
 same part of it, but they are a small share of any picture.
@@ -166,7 +166,7 @@ def ripples_recipe(name: str, layout: BumpLayout, images: Sequence) -> GroupReci
     description = repr((layout, [image.name for image in images]))
     return GroupRecipe(
         name,
-        "3 " + hashlib.blake2b(description.encode(), digest_size=8).hexdigest(),
+        "4 " + hashlib.blake2b(description.encode(), digest_size=8).hexdigest(),
         inputs=(SLOPE_VARIANCE, *variances, *extra),
         outputs=(SLOPE_VARIANCE, NORMAL),
         build=lambda graph: _Builder(graph, layout, images).build(),

@@ -21,6 +21,7 @@ def main():
     parser.add_argument("--save", metavar="FOLDER", help="save pictures and numbers there as well")
     aerial = parser.add_argument_group("repetition")
     aerial.add_argument("--pixels", type=int, default=512, help="along each side of the picture (%(default)s)")
+    aerial.add_argument("--seeds", type=int, default=1, help="seas of this ocean to look at (%(default)s)")
     dolly = parser.add_argument_group("flicker")
     dolly.add_argument("--width", type=int, default=960, help="of the whole frame, in pixels (%(default)s)")
     dolly.add_argument("--frames", type=int, default=4)

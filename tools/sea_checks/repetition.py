@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """2 km of sea from straight above: the highest autocorrelation of the picture outside the origin.
 
-The ocean is fitted to the camera as *Fit Plane to Shot* does it. Beside it stand the same sea as geometry alone,
-whose autocorrelation is that of its few waves, and Blender's Ocean modifier, 250 m of it repeated.
+The ocean is fitted to the camera as *Fit Plane to Shot* does it, for every seed asked for. Beside it stand the
+same sea as geometry alone, whose autocorrelation is that of its few waves, and Blender's Ocean modifier, 250 m of
+it repeated.
 """
 
 import json
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import bpy
@@ -32,8 +33,11 @@ _BRIGHTEST = 0.99
 """Brighter pixels than those of this rank are cut off: a few sparks are no pattern."""
 
 
-def _this_ocean(scene, pixels):
-    add_ocean(scene, SEA, pixels)
+def _this_ocean(seed):
+    def add(scene, pixels):
+        add_ocean(scene, replace(SEA, seed=seed), pixels)
+
+    return add
 
 
 def _as_geometry(waves):
@@ -68,12 +72,14 @@ def _modifier(scene, pixels):
     ob.data.materials.append(material)
 
 
-OCEANS = {
-    "this ocean": _this_ocean,
-    "its geometry alone, 128 waves": _as_geometry(128),
-    "its geometry alone, 1024 waves": _as_geometry(1024),
-    "Ocean modifier": _modifier,
-}
+def oceans(seeds: int) -> dict:
+    """What adds each ocean to a scene, by its name: this one of the first `seeds` seeds, then the others."""
+    own = {f"this ocean, seed {seed}": _this_ocean(seed) for seed in range(seeds)}
+    return own | {
+        "its geometry alone, 128 waves": _as_geometry(128),
+        "its geometry alone, 1024 waves": _as_geometry(1024),
+        "Ocean modifier": _modifier,
+    }
 
 
 @dataclass(frozen=True)
@@ -85,13 +91,13 @@ class Repetition:
     shift: tuple[float, float]
 
 
-def look(name: str, engine: str, pixels: int, samples: int) -> np.ndarray:
-    """Two pictures of an ocean that differ in their noise, (2, pixels, pixels)."""
+def look(add, engine: str, pixels: int, samples: int) -> np.ndarray:
+    """Two pictures of an ocean that differ in their noise, (2, pixels, pixels); `add` adds it to the scene."""
     shot = Shot(camera_height=1000.0, camera_pitch=math.pi / 2, sun_elevation=math.radians(50.0))
     scene = new_scene(shot, engine, pixels, pixels, samples)
     camera = scene.camera.data
     camera.type, camera.ortho_scale = "ORTHO", WIDTH
-    OCEANS[name](scene, pixels)
+    add(scene, pixels)
     pictures = []
     for seed in (1, 2):
         scene.cycles.seed = seed
@@ -105,16 +111,16 @@ def run(options) -> None:
     perfect = expected(slope_correlation(SEA, 0.0, options.pixels, pixel), pixel)
     print(f"waves know of each other up to {perfect.length:.0f} m; beyond, chance leaves {perfect.chance:.3f}")
     found, shown = [], []
-    for name in OCEANS:
-        pictures = look(name, options.engine, options.pixels, options.samples)
+    for name, add in oceans(options.seeds).items():
+        pictures = look(add, options.engine, options.pixels, options.samples)
         correlations = correlation(*pictures)
         peak = highest_beyond(correlations, pixel, perfect.length)
         found.append(Repetition(name, peak.value, peak.shift))
         x, y = peak.shift
         print(f"{name:<32} highest autocorrelation {peak.value:.3f}, at ({x:.0f}, {y:.0f}) m", flush=True)
         shown.append(np.vstack([np.abs(correlations), stretched(pictures.mean(axis=0))]))
-    passed = found[0].highest <= LIMIT
-    print(f"{'PASS' if passed else 'MISS'}: {found[0].highest:.3f}, allowed is {LIMIT:g}")
+    worst = max(each.highest for each in found[: options.seeds])
+    print(f"{'PASS' if worst <= LIMIT else 'MISS'}: {worst:.3f}, allowed is {LIMIT:g}")
     if options.save:
         save_gray(Path(options.save) / "repetition.png", np.hstack([shown[0], shown[-1]]).clip(0.0, 1.0))
         report = {"limit": LIMIT, "perfect": asdict(perfect), "oceans": [asdict(each) for each in found]}

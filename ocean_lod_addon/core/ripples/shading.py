@@ -21,9 +21,11 @@ GRAZING_COSINE = 1e-3
 HORIZONTAL_FLOOR = 1e-6
 """Keeps the horizontal direction of view finite straight above."""
 
-CELLS_PER_TILE = 2
-"""Cells of a grid along the side of the square of water that an image shows. If a cell saw the whole image, two
-cells would see the same water; cells of less than four of the longest waves would cut waves short."""
+CELLS_PER_TILE = 3
+"""Cells of a grid along the side of the square of water that an image shows. Any two cells may see the same water,
+and their common part is what an autocorrelation finds of it: with 2, a picture of one or two images has peaks of
+0.05 to 0.13, with 3 those of chance. Smaller cells would cut waves short: the longest keep half their correlation
+with themselves over one wavelength, which waves of many directions and lengths have not anyway."""
 
 VISIBLE_SHARE = 0.98
 """A slope reaches at most this share of the slope at which it is seen edge-on."""
