@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .carried import RIM, Carried
 from .lod import Grid, tile_table
 
 
@@ -56,32 +57,26 @@ _WIDEST_HALF_ANGLE = 1.5
 
 
 def visible_tiles(
-    grid: Grid,
-    anchors: np.ndarray,
-    planes: np.ndarray,
-    highest: float,
-    reach: float,
-    curved_radius: float = np.inf,
+    grid: Grid, anchors: np.ndarray, planes: np.ndarray, carried: Carried, curved_radius: float = np.inf
 ) -> np.ndarray:
     """Which tiles can be seen, a bool for each: boxes around them that are not wholly outside some plane.
 
-    `highest` bounds the waves' heights above and below the mean level and `reach` their horizontal displacement,
-    in m: a vertex stays within the ellipsoid of these half axes around its undisturbed place. With a finite
-    `curved_radius` (m) the sea sinks with distance.
+    A vertex stays within the ellipsoid of half axes `carried.reach` sideways and `carried.highest` up and down
+    around its undisturbed place moved by `carried.shift`. With a finite `curved_radius` (m) the sea sinks with
+    distance.
     """
-    low, high = _boxes(grid, anchors)
-    furthest = np.maximum(np.abs(low - anchors[0]), np.abs(high - anchors[0]))
+    centre, half = _boxes(grid, anchors)
+    n, offset = planes[:, :3], planes[:, 3]
+    furthest = np.abs(centre - anchors[0]) + half
     drop = (furthest**2).sum(axis=1) / (2.0 * curved_radius)
-    seen = np.ones(len(low), bool)
-    for nx, ny, nz, offset in planes:
-        corner = (
-            np.maximum(nx * low[:, 0], nx * high[:, 0])
-            + np.maximum(ny * low[:, 1], ny * high[:, 1])
-            + np.maximum(-nz * drop, 0.0)
-            + np.hypot(np.hypot(nx, ny) * reach, nz * highest)
-        )
-        seen &= corner + offset >= 0.0
-    return seen
+    inwards = (
+        centre @ n[:, :2].T
+        + half @ np.abs(n[:, :2].T)
+        + carried.shift @ n.T
+        + np.outer(drop, np.maximum(-n[:, 2], 0.0))
+        + np.hypot(np.outer(carried.reach, np.hypot(n[:, 0], n[:, 1])), np.outer(carried.highest, n[:, 2]))
+    )
+    return (inwards >= -offset).all(axis=1)
 
 
 def looks_down(view: CameraView, margin: float, highest: float) -> bool:
@@ -100,14 +95,13 @@ def looks_down(view: CameraView, margin: float, highest: float) -> bool:
 
 
 def _boxes(grid, anchors):
-    """Undisturbed low and high corners, (tiles, 2) m each, of all tiles and the cells that join them to others."""
+    """Boxes around all tiles, undisturbed, and the cells that join them to others: centres and half sides, m."""
     table = tile_table(grid.cells, grid.levels)
     spacing = grid.cell_size * np.exp2(table.level)[:, None]
-    middle, cell = grid.cells // 2, 1.5
-    first = np.stack([table.row_start, table.column_start], axis=-1) - middle
-    last = np.stack([table.row_stop, table.column_stop], axis=-1) - middle - 1
-    here = anchors[table.level]
-    return (first - cell) * spacing + here, (last + cell) * spacing + here
+    first = np.stack([table.row_start, table.column_start], axis=-1)
+    last = np.stack([table.row_stop, table.column_stop], axis=-1) - 1
+    centre = (0.5 * (first + last) - grid.cells // 2) * spacing + anchors[table.level]
+    return centre, (0.5 * (last - first) + RIM) * spacing
 
 
 def nearest_visible_water(view: CameraView) -> np.ndarray:

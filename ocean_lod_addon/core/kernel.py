@@ -58,6 +58,10 @@ class _StillWater:
     anchors: np.ndarray
 
 
+_NO_ROW = 1 << 30
+"""Past all rows."""
+
+
 class FrameKernel:
     """Positions of a plane's vertices at any time and place, for one grid and one set of waves.
 
@@ -137,17 +141,18 @@ class FrameKernel:
         phasors = self._waves.amplitude * np.exp(1j * at_anchors)  # (levels, waves)
         phasors = phasors[:, self._order].astype(np.complex64)
         with small_buffers():
-            for level, phasor in zip(self._levels, phasors, strict=True):
-                level.fill(phasor, anchors, blocks, self._visible_rows(level, visible))
+            for level, phasor, rows in zip(self._levels, phasors, self._visible_rows(visible), strict=True):
+                level.fill(phasor, anchors, blocks, rows)
 
-    def _visible_rows(self, level, visible):
-        """The lines of a level from its first to its last tile that is visible."""
+    def _visible_rows(self, visible):
+        """For each level its lines from the first to the last tile that is visible."""
         if visible is None:
-            return slice(0, len(level.lines))
-        here = visible & (self._table.level == level.number)
-        if not here.any():
-            return slice(0, 0)
-        return slice(int(self._table.row_start[here].min()), int(self._table.row_stop[here].max()))
+            return [slice(0, len(level.lines)) for level in self._levels]
+        table = self._table
+        begins = np.searchsorted(table.level, np.arange(len(self._levels)))
+        first = np.minimum.reduceat(np.where(visible, table.row_start, _NO_ROW), begins)
+        past = np.maximum.reduceat(np.where(visible, table.row_stop, 0), begins)
+        return [slice(min(start, stop), stop) for start, stop in zip(first.tolist(), past.tolist(), strict=True)]
 
     def products(
         self, out: np.ndarray, visible=None, wave_limit: int | None = None, block: ColumnBlock = POSITION

@@ -54,9 +54,14 @@ class Surface:
         """Number of vertices."""
         return self._kernel.vertex_count
 
-    def placement(self, view: CameraView | None = None, final: bool = False) -> Placement:
-        """Where the plane stands for a camera and what of it moves, for a `final` picture or the viewport."""
-        return place(self.ocean.grid, self.ocean.framing, self.waves, view, final)
+    def placement(
+        self, view: CameraView | None = None, final: bool = False, moment: float | None = None
+    ) -> Placement:
+        """Where the plane stands for a camera and what of it moves, for a `final` picture or the viewport.
+
+        A picture that shows one `moment` of the sea, in s, and no other needs less of it.
+        """
+        return place(self.ocean.grid, self.ocean.framing, self.waves, view, final, moment)
 
     def positions(
         self,

@@ -7,13 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .camera_view import CameraView, frame_planes, plane_centre, visible_tiles
+from .carried import carried, carried_at_any_time
 from .constants import EARTH_RADIUS
 from .framing import Framing
 from .lod import Grid, level_anchors
 from .waves import WaveSet
-
-_HIGHEST_WAVE = 1.25
-"""Bound on a crest over the significant height. In a Gaussian sea exp(-8 r^2), four in a million, exceed it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,16 +29,19 @@ class Placement:
         return self.visible is None or bool(self.visible.any())
 
 
-def highest_wave(waves: WaveSet) -> float:
-    """Bound on the heights of crests and depths of troughs, m."""
-    return _HIGHEST_WAVE * 4.0 * float(np.sqrt(0.5 * np.sum(waves.amplitude**2)))
-
-
-def place(grid: Grid, framing: Framing, waves: WaveSet, view: CameraView | None, final: bool) -> Placement:
+def place(
+    grid: Grid,
+    framing: Framing,
+    waves: WaveSet,
+    view: CameraView | None,
+    final: bool,
+    moment: float | None = None,
+) -> Placement:
     """The placement of a plane for a camera (None if the scene has none); a function of its arguments alone.
 
     `final` says that a picture is rendered: tiles outside the frame and its margin stay flat, if the settings ask
     for it, and all waves move. Otherwise the viewport shows the whole plane, with the share of waves set for it.
+    A picture of one `moment` (s) needs fewer tiles than one that may show any, or several while a shutter is open.
     """
     centre = plane_centre(grid, view) if view is not None and framing.centre == "CAMERA" else (0.0, 0.0)
     anchors = level_anchors(grid, centre)
@@ -49,8 +50,7 @@ def place(grid: Grid, framing: Framing, waves: WaveSet, view: CameraView | None,
         return Placement(anchors, wave_limit=None if share == 1.0 else math.ceil(share * len(waves)))
     if view is None or not framing.only_in_view:
         return Placement(anchors)
-    highest = highest_wave(waves)
-    reach = highest * float(waves.orbit_ratio.max(initial=0.0))
+    tiles = carried_at_any_time(grid, waves) if moment is None else carried(grid, anchors, waves, moment)
     radius = EARTH_RADIUS if framing.curved_earth else np.inf
     planes = frame_planes(view, framing.view_margin)
-    return Placement(anchors, visible_tiles(grid, anchors, planes, highest, reach, radius))
+    return Placement(anchors, visible_tiles(grid, anchors, planes, tiles, radius))

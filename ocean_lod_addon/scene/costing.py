@@ -112,10 +112,10 @@ class _ProbedObject:
             images=float(self._image is not None),
         )
 
-    def decide(self, _time):
+    def decide(self, time):
         """What a frame decides before it computes."""
         depsgraph = self._scene.view_layers[0].depsgraph
-        ocean_object.decide_frame(self._object, self._scene, depsgraph)
+        ocean_object.decide_frame(self._object, self._scene, depsgraph, time)
 
     def write(self, _time):
         """Positions, and normals where there are any."""

@@ -136,10 +136,10 @@ def update(ob, scene, depsgraph) -> None:
     Settings are read from the evaluated object: during a render, animation reaches only that one.
     """
     stages = frame_times.StageClock()
-    planned, surface, placement = decide_frame(ob, scene, depsgraph)
+    time = scene_sea_time(ob.evaluated_get(depsgraph), scene)
+    planned, surface, placement = decide_frame(ob, scene, depsgraph, time)
     stages.done("setup")
     if placement is not None:
-        time = scene_sea_time(ob.evaluated_get(depsgraph), scene)
         with_velocity = depsgraph.mode == "RENDER" or planned.plan.on("velocity")
         _write_surface(ob, surface, placement, time, with_velocity, stages)
         bump.update(ob, surface, time)
@@ -149,8 +149,10 @@ def update(ob, scene, depsgraph) -> None:
     frame_times.keep(ob, stages)
 
 
-def decide_frame(ob, scene, depsgraph):
+def decide_frame(ob, scene, depsgraph, time):
     """What a frame is made by: its plan, and its surface and placement or None where nothing is to be moved.
+
+    `time` is that of the sea, s.
 
     While the shutter of a rendered frame is open the plan and the placement stay. Raises OceanError.
     """
@@ -164,7 +166,8 @@ def decide_frame(ob, scene, depsgraph):
         surface = _surface(planned.ocean)
         ocean_material.set_surroundings(ob, depsgraph.scene_eval, planned.ocean.sea)
         if kept is None or kept.grid != grid:
-            placement = surface.placement(planned.view, final)
+            moment = None if scene.render.use_motion_blur else time
+            placement = surface.placement(planned.view, final, moment)
             placement = placement if placement.sees_water else None
     if kept is None:
         placing.keep_decision(ob, scene, placing.FrameDecision(planned.plan, grid, placement))

@@ -4,9 +4,9 @@
 import functools
 
 from ..core.camera_view import CameraView, looks_down
+from ..core.carried import highest_wave
 from ..core.discretise import discretise
 from ..core.ocean import Ocean
-from ..core.placement import highest_wave
 from ..core.plan import Facts, Plan, Settings, decide, effective
 from ..core.shot_fit import frame_needs
 from ..nodes.material import shows_water

@@ -14,41 +14,26 @@ from ocean_lod_addon.core.camera_view import (
     plane_centre,
     visible_tiles,
 )
+from ocean_lod_addon.core.carried import Carried
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.framing import Framing
 from ocean_lod_addon.core.lod import Grid, level_anchors, tiles
 from ocean_lod_addon.core.placement import place
 from ocean_lod_addon.core.sea import Sea
 
+from .cameras import camera, projected_inside
+
 GRID = Grid(cell_size=0.1, cells=128, levels=9)
-
-
-def camera(height=1.7, pitch=0.0, heading=0.0, lens=35.0, aspect=16 / 9, kind="PERSP", at=(0.0, 0.0)):
-    """A level camera, `pitch` rad below the horizon, 36 mm wide sensor; an orthographic one is `lens` m wide."""
-    cos, sin = math.cos(pitch), math.sin(pitch)
-    forward = np.array([cos * math.cos(heading), cos * math.sin(heading), -sin])
-    right = np.array([math.sin(heading), -math.cos(heading), 0.0])
-    half = 18.0 / lens if kind == "PERSP" else 0.5 * lens
-    return CameraView(
-        np.array([*at, height]),
-        np.stack([right, np.cross(right, forward), forward]),
-        (-half, half, -half / aspect, half / aspect),
-        kind,
-    )
 
 
 def seen(view, margin=0.0, grid=GRID):
     anchors = level_anchors(grid, plane_centre(grid, view))
-    return visible_tiles(grid, anchors, frame_planes(view, margin), highest=2.0, reach=2.0), anchors
+    return visible_tiles(grid, anchors, frame_planes(view, margin), anywhere(2.0)), anchors
 
 
-def projected_inside(view, points):
-    """Whether points are in frame, by projecting them: independent of the planes."""
-    x, y, depth = view.axes @ (points - view.position).T
-    left, right, bottom, top = view.extent
-    scale = depth if view.kind == "PERSP" else 1.0
-    inside = (x >= left * scale) & (x <= right * scale) & (y >= bottom * scale) & (y <= top * scale)
-    return inside & (depth > 0) if view.kind == "PERSP" else inside
+def anywhere(height):
+    """Waves of this height, wherever they are."""
+    return Carried(np.zeros((1, 3)), height, height)
 
 
 VIEWS = {

@@ -13,6 +13,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from ocean_lod_addon.core.camera_view import frame_planes, visible_tiles
+from ocean_lod_addon.core.carried import Carried
 from ocean_lod_addon.core.discretise import SMALLEST_BIN_ENERGY, band_layout, bin_edges, discretise, integrate_bins
 from ocean_lod_addon.core.dispersion import angular_frequency
 from ocean_lod_addon.core.errors import OceanError
@@ -246,7 +247,7 @@ def test_what_the_camera_sees_is_never_left_flat(grid, camera, centre, highest, 
     """
     anchors = level_anchors(grid, centre)
     planes = frame_planes(camera, margin)
-    seen = visible_tiles(grid, anchors, planes, highest, highest)
+    seen = visible_tiles(grid, anchors, planes, Carried(np.zeros((1, 3)), highest, highest))
     random = np.random.default_rng(4)
     points = undisturbed_positions(grid, anchors)
     directions = random.normal(size=(len(points), 3))

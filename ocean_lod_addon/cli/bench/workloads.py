@@ -205,7 +205,9 @@ def view_case(grid: Grid, sea: Sea, contraction: str) -> ViewCase:
     surface = Surface(Ocean(sea, grid), contraction)
     out = ReusedArray(position_buffer(grid))
     still = surface.placement(level_camera(0.0))
-    in_view = surface.placement(level_camera(0.0), final=True)
+
+    def in_view(time):
+        return surface.placement(level_camera(0.0), final=True, moment=time)
 
     def moving(time):
         surface.positions(time, surface.placement(level_camera(_CAMERA_SPEED * time)), out)
@@ -213,9 +215,9 @@ def view_case(grid: Grid, sea: Sea, contraction: str) -> ViewCase:
     contestants = [
         Contestant(WHOLE, {"surface": lambda time: surface.positions(time, still, out)}),
         Contestant(MOVING, {"surface": moving}),
-        Contestant(IN_VIEW, {"surface": lambda time: surface.positions(time, in_view, out)}),
+        Contestant(IN_VIEW, {"surface": lambda time: surface.positions(time, in_view(time), out)}),
     ]
-    return ViewCase(surface, contestants, _share_of_vertices(grid, in_view.visible))
+    return ViewCase(surface, contestants, _share_of_vertices(grid, in_view(0.0).visible))
 
 
 def _share_of_vertices(grid, visible):
