@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.material_settings import MaterialSettings
-from ocean_lod_addon.core.optics import fresnel
 from ocean_lod_addon.nodes.material import ensure_material
-from ocean_lod_addon.nodes.reflection_group import HAS_EXACT_FRESNEL
 from tests.render.flat_sea import FlatSea, direction, slope_tensor
-from tests.render.ross_reference import lobe_peak, sun_radiance
+from tests.render.ross_reference import CLOSURE_FRESNEL, lobe_peak, sun_radiance
 
 pytestmark = pytest.mark.render
 
@@ -38,7 +36,6 @@ def test_cycles_closure_is_the_ross_brdf(tmp_path):
     """Truth: sun radiance = irradiance times BRDF cos theta_l (Eq. 22), with the Fresnel of this Blender."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     sea = FlatSea(black_water(), TENSORS)
-    reflectance = fresnel.exact if HAS_EXACT_FRESNEL else fresnel.schlick
     compared = np.zeros(len(TENSORS), int)
     for elevation in ELEVATIONS:
         to_viewer = sea.look_along_x(elevation)
@@ -46,7 +43,7 @@ def test_cycles_closure_is_the_ross_brdf(tmp_path):
             to_sun = direction(min(max(elevation + higher, 0.5), 90.0), aside)
             sea.shine(to_sun, 1.0)
             picture = sea.render_cycles(tmp_path / "sea.exr")[:, 1]
-            truth = np.array([sun_radiance(to_viewer, to_sun, tensor, reflectance) for tensor in TENSORS])
+            truth = np.array([sun_radiance(to_viewer, to_sun, tensor, CLOSURE_FRESNEL) for tensor in TENSORS])
             inside = truth > IN_LOBE * np.array([lobe_peak(to_viewer, tensor) for tensor in TENSORS])
             ratio = picture[inside] / truth[inside]
             message = f"elevation {elevation}, sun {higher:+} {aside:+}: {ratio}"

@@ -26,10 +26,12 @@ class ReflectedLight(NamedTuple):
     """(x, y, z), the mean of the unit vectors to where the light comes from; the shorter, the wider the spread"""
 
 
-def reflected_light_reference(ops, view, slopes, refractive_index, order=64) -> ReflectedLight:
+def reflected_light_reference(
+    ops, view, slopes, refractive_index, order=64, reflectance=fresnel.exact
+) -> ReflectedLight:
     """Integrals of q(zeta, v, l) F(v.f), and of that times l, over the slopes that mirror v upwards. NumPy only.
 
-    q is Eq. 13 with the light l that each slope mirrors to v. By quadrature.
+    q is Eq. 13 with the light l that each slope mirrors to v, F a formula of `fresnel`. By quadrature.
     """
     tilt_x, tilt_y, weight = visible_slopes(view, slopes, order)
     secant = np.sqrt(1.0 + tilt_x**2 + tilt_y**2)
@@ -38,7 +40,7 @@ def reflected_light_reference(ops, view, slopes, refractive_index, order=64) -> 
     upwards = light[2] > 0.0
     light[2] = np.where(upwards, light[2], 1.0)
     q = ross.visible_slope_density(ops, (tilt_x, tilt_y), view, slopes, light)
-    reflected = weight * q * fresnel.exact(ops, cos_incidence, refractive_index) * upwards
+    reflected = weight * q * reflectance(ops, cos_incidence, refractive_index) * upwards
     share = float(reflected.sum())
     return ReflectedLight(share, tuple(float((reflected * component).sum()) / share for component in light))
 
