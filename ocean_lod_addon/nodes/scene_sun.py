@@ -8,8 +8,8 @@ sun here; set the material's sockets by hand then.
 **Counting it once.** EEVEE does not draw a Sky Texture's disc, so the formula is all there is of it. A Sun light
 it does reflect in the ocean's Glossy closure as well, in a round blob; a shader cannot see which light it is lit
 by, so `claim_sun` takes the highlights from the light itself: Specular 0, which Cycles ignores. Other shiny
-objects then lose its highlight in EEVEE, too; `release_sun` gives it back. Where the formula replaces the closure
-in Cycles the light becomes invisible to glossy rays.
+objects then lose its highlight in EEVEE, too; when the last ocean has gone, `release_sun` gives it back. Where the
+formula replaces the closure in Cycles the light becomes invisible to glossy rays.
 
 **A sky brighter than 10.** A physical sky is, and EEVEE by default cuts reflected light off there, and takes what
 is brighter out of the world to make a sun of its own, which the sea would reflect in one more blob. So `claim_sun`
@@ -26,6 +26,9 @@ from mathutils import Vector
 from ..core.material_settings import MaterialSettings
 from ..core.optics.sky_sun import multiple_scattering_sun, single_scattering_sun
 from ..core.sun import Sun
+
+CLAIMED_KEY = "ocean_lod_claimed_sun"
+"""Custom property of a scene whose sun is claimed; lights and worlds may be in other scenes, too."""
 
 SPECULAR_KEY = "ocean_lod_specular_factor"
 """Custom property of a claimed light: its Specular before."""
@@ -138,19 +141,33 @@ def _emission(tree):
 
 def claim_sun(scene: bpy.types.Scene, settings: MaterialSettings) -> None:
     """Leave the scene's sun to the ocean's formula where it is used, and let EEVEE reflect all of the sky."""
+    scene[CLAIMED_KEY] = True
     for lamp in sun_lights(scene):
         _claim(lamp.data, SPECULAR_KEY, lamp.data, "specular_factor", 0.0)
         if settings.sun_model == "formula":
             _claim(lamp, GLOSSY_KEY, lamp, "visible_glossy", False)
         else:
             _release(lamp, GLOSSY_KEY, lamp, "visible_glossy")
-    if _background_and_sky(scene.world)[1] is not None:
+    if _has_sky(scene.world):
         _claim(scene, CLAMP_KEY, scene.eevee, "clamp_surface_indirect", 0.0)
         _claim(scene.world, THRESHOLD_KEY, scene.world, "sun_threshold", 0.0)
 
 
+def is_claimed(scene: bpy.types.Scene) -> bool:
+    """Whether there is nothing that `claim_sun` has not seen: no Sun light or sky that came later."""
+    lights = all(SPECULAR_KEY in lamp.data for lamp in sun_lights(scene))
+    return CLAIMED_KEY in scene and lights and (not _has_sky(scene.world) or THRESHOLD_KEY in scene.world)
+
+
+def _has_sky(world):
+    return _background_and_sky(world)[1] is not None
+
+
 def release_sun(scene: bpy.types.Scene) -> None:
-    """Undo `claim_sun`."""
+    """Undo `claim_sun`, where that has been done."""
+    if CLAIMED_KEY not in scene:
+        return
+    del scene[CLAIMED_KEY]
     for lamp in scene.objects:
         if lamp.type == "LIGHT":
             _release(lamp.data, SPECULAR_KEY, lamp.data, "specular_factor")

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The frame-change handler: every visible ocean, at the frame and sub-frame being evaluated."""
+"""What Blender calls: at each frame for every visible ocean, around renders, and after edits of the scene."""
 
 import bpy
 from bpy.app.handlers import persistent
 
-from . import ocean_object, placing
+from . import ocean_material, ocean_object, placing
 
 
 @persistent
@@ -14,6 +14,14 @@ def update_oceans(scene, depsgraph=None):
         depsgraph = bpy.context.evaluated_depsgraph_get()
     for ob in ocean_object.visible_oceans(scene, depsgraph):
         ocean_object.update_reporting(ob, scene, depsgraph)
+
+
+@persistent
+def follow_edit(scene, depsgraph):
+    """Called by Blender after an edit: where objects, materials or lights have changed, the sun may have."""
+    lamp_moved = any(getattr(update.id, "type", None) == "LIGHT" for update in depsgraph.updates)
+    if lamp_moved or any(map(depsgraph.id_type_updated, ("COLLECTION", "LIGHT", "WORLD"))):
+        ocean_material.settle_sun(scene, [ob for ob in scene.objects if ocean_object.is_ocean(ob)])
 
 
 @persistent
@@ -43,6 +51,7 @@ def _subscriptions():
     handlers = bpy.app.handlers
     return (
         (handlers.frame_change_post, update_oceans),
+        (handlers.depsgraph_update_post, follow_edit),
         (handlers.render_init, begin_render),
         (handlers.render_pre, begin_frame),
         (handlers.render_post, end_frame),

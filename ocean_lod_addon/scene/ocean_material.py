@@ -9,7 +9,7 @@ from ..core.sea import Sea
 from ..core.wind import COX_MUNK_HEIGHT, wind_at_height
 from ..nodes.foam_material import follow_sun
 from ..nodes.material import MATERIAL_KEY, ensure_material, find_material, set_sun, set_wind
-from ..nodes.scene_sun import claim_sun, scene_sun
+from ..nodes.scene_sun import claim_sun, is_claimed, release_sun, scene_sun
 from . import properties
 
 
@@ -18,14 +18,34 @@ def apply(ob, scene, settings: MaterialSettings) -> None:
     material = ensure_material(_material_name(ob), settings)
     if not ob.data.materials:
         ob.data.materials.append(material)
-    claim_sun(scene, settings)
+    if own_materials(ob):
+        claim_sun(scene, settings)
     set_surroundings(ob, scene, properties.read_sea(ob.ocean_lod))
+
+
+def settle_sun(scene, oceans) -> None:
+    """Let the `oceans` of a scene reflect its sun as it is now, and give it back once none of them does.
+
+    A sun that came after them is claimed. What the artist changed at a claimed one stays.
+    """
+    reflecting = [ob for ob in oceans if own_materials(ob)]
+    if not reflecting:
+        release_sun(scene)
+        return
+    if not is_claimed(scene):
+        for ob in reflecting:
+            claim_sun(scene, properties.read_material(ob.ocean_lod))
+    _set_sun([material for ob in reflecting for material in own_materials(ob)], scene)
+
+
+def own_materials(ob) -> list:
+    """The materials of an ocean that were made by this extension."""
+    return [material for material in ob.data.materials if material is not None and MATERIAL_KEY in material]
 
 
 def own_material(ob):
     """The material that was made for an ocean, the first if it has several, or None."""
-    ours = (material for material in ob.data.materials if material is not None and MATERIAL_KEY in material)
-    return next(ours, None)
+    return next(iter(own_materials(ob)), None)
 
 
 def set_surroundings(ob, scene, sea: Sea) -> None:
@@ -33,17 +53,21 @@ def set_surroundings(ob, scene, sea: Sea) -> None:
 
     Only values of sockets are written, and only those that differ.
     """
-    materials = [material for material in ob.data.materials if material is not None and MATERIAL_KEY in material]
-    if not materials:
-        return
-    sun = scene_sun(scene)
+    materials = own_materials(ob)
+    _set_sun(materials, scene)
     rough = roughening_system(sea)
-    for material in materials:
-        set_sun(material, sun)
-        follow_sun(material)
-        if rough is not None:
-            system = sea.systems[rough]
+    if rough is not None:
+        system = sea.systems[rough]
+        for material in materials:
             set_wind(material, wind_at_height(system.wind_speed, COX_MUNK_HEIGHT), system.direction)
+
+
+def _set_sun(materials, scene):
+    if materials:
+        sun = scene_sun(scene)
+        for material in materials:
+            set_sun(material, sun)
+            follow_sun(material)
 
 
 def _material_name(ob):
