@@ -85,9 +85,9 @@ def multiply_without_blas(products) -> None:
     in_threads(_multiply_piece, pieces)
 
 
-_PIECE_ROWS, PIECE_COLUMNS = 128, 384
-"""A piece of a product for one thread, about; a millisecond of work. For each row of `left`, einsum runs through
-all of `right`: so many columns of it stay in a core's own cache, and shorter runs would slow its inner loop."""
+_PIECE_ROWS, PIECE_COLUMNS = 128, 1024
+"""A piece of a product for one thread, about; milliseconds of work. For each row of `left`, einsum runs through
+all of `right`: shorter runs slow its inner loop, longer ones push the row that they add to out of the cache."""
 
 
 def _pieces(product):

@@ -50,7 +50,7 @@ class Level:
         self.window_levels = window_levels(grid, waves.wavelength[self.present])
         self.fading = _fading(grid, number, self.reach, self.window_levels)
         self.base_rows = 4 if curved_earth else 2
-        self.strips = [span for span in tile_columns(grid.cells) if span[0] >= grid.cells // 2]
+        self.grid = grid
         self._mirrored = mirrored
         self._windows = Windows(self, axis=0)
         self._blocks: dict[ColumnBlock, _Right] = {}
@@ -158,23 +158,32 @@ class _Right:
 
 
 class _PlainRight(_Right):
-    """R as it stands in core.kernel."""
+    """R as it stands in core.kernel, for each strip of tiles by its first line; `base` is for still water."""
 
     mirrored = False
 
     def __init__(self, level, block):
         super().__init__(level, block)
         rows = 2 * level.wave_count + level.base_rows
-        self.matrix = np.zeros((rows, block.columns * len(level.lines)), np.float32)
-        self.base = self.matrix[-level.base_rows :]
+        self.strips = {
+            start: aligned_matrix(rows, block.columns * (stop - start))
+            for start, stop in tile_columns(level.grid.cells)
+        }
+        self.base = np.zeros((level.base_rows, block.columns * len(level.lines)), np.float32)
 
     def _put_base(self, base):
         self.base[:] = base.reshape(len(base), -1)
+        self._put(slice(2 * self._level.wave_count, None), base)
 
     def _put_waves(self, waves, weighted):
-        rows = self.matrix[: 2 * self._level.wave_count].reshape(self._level.wave_count, 2, -1)
-        flat = weighted.reshape(len(weighted), -1)
-        rows[waves, 0], rows[waves, 1] = flat.real, -flat.imag
+        self._put(slice(2 * waves.start, 2 * waves.stop, 2), weighted.real)
+        self._put(slice(2 * waves.start + 1, 2 * waves.stop, 2), -weighted.imag)
+
+    def _put(self, rows, values):
+        """Values (rows, lines, columns)."""
+        for start, matrix in self.strips.items():
+            stop = start + matrix.shape[1] // self._block.columns
+            matrix[rows] = values[:, start:stop].reshape(len(values), -1)
 
 
 class _MirroredRight(_Right):
@@ -188,7 +197,8 @@ class _MirroredRight(_Right):
         rows = level.wave_count + level.fading + level.base_rows
         self.strips = {
             start: tuple(aligned_matrix(rows, block.columns * (stop - start)) for _ in range(2))
-            for start, stop in level.strips
+            for start, stop in tile_columns(level.grid.cells)
+            if start >= level.grid.cells // 2
         }
         self.base = np.zeros((level.base_rows, block.columns * len(level.lines)), np.float32)
 
@@ -220,7 +230,8 @@ class _MirroredRight(_Right):
     def _put(self, which, rows, values):
         """Values (rows, lines of the upper half, columns) into the factors of U (0) or V (1)."""
         middle = len(self._level.lines) // 2
-        for (start, stop), pair in zip(self._level.strips, self.strips.values(), strict=True):
+        for start, pair in self.strips.items():
+            stop = start + pair[which].shape[1] // self._block.columns
             pair[which][rows] = values[:, start - middle : stop - middle].reshape(len(values), -1)
 
 

@@ -214,10 +214,9 @@ class _PlainTiles:
         tile, end = self._tiles[first], self._tiles[last]
         level = levels[tile.level]
         inner = slice(2 * (level.wave_count - wave_count), None)
-        columns = slice(block.columns * tile.column_start, block.columns * tile.column_stop)
         return Product(
             level.plain_left[tile.row_start : end.row_stop, inner],
-            level.right(block).matrix[inner, columns],
+            level.right(block).strips[tile.column_start][inner],
             _rows_of(out, block, tile, end),
         )
 

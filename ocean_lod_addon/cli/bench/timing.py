@@ -119,6 +119,18 @@ def alternate(contestants: list[Contestant], cycles: int) -> dict[str, Timing]:
     }
 
 
+def one_after_another(contestant: Contestant) -> Callable[[], None]:
+    """A function that runs all parts of a contestant, a frame later at each call."""
+    clock = _FrameClock()
+
+    def run():
+        moment = clock.next()
+        for part in contestant.parts.values():
+            part(moment)
+
+    return run
+
+
 class _FrameClock:
     """The sea's time, a frame later at each run: nothing is measured twice for the same moment."""
 

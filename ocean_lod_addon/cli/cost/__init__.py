@@ -145,7 +145,7 @@ def _measure(options, output, with_blender):
     whole = configurations.measure_configurations(model, rounds, with_blender)
     tried = [budgets.try_budget(prices, budget, with_blender) for budget in budgets.BUDGETS]
     _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
-    predictions, without_blas = _try_predictions(options, prices, rounds, with_blender)
+    predictions, without_blas = _try_predictions(options, prices, with_blender)
 
     measured = []
     for knob in KNOBS:
@@ -178,15 +178,15 @@ def _measure(options, output, with_blender):
     )
 
 
-def _try_predictions(options, prices, rounds, with_blender):
+def _try_predictions(options, prices, with_blender):
     """Predictions beside times, through Blender and by a contraction in NumPy alone; (None, None) if quick."""
     if not options.full:
         return None, None
-    predictions = prediction.try_model(prices, rounds, None, with_blender)
+    predictions = prediction.try_model(prices, None, with_blender)
     where = "through Blender" if with_blender else "without Blender"
     _print(f"Predictions, {where}, by {fastest_contraction()}", report.prediction_lines(predictions))
     contraction = options.contraction or "einsum"
-    without_blas = prediction.try_model(SteadyPrices(lambda: probe(contraction)), rounds, contraction, False)
+    without_blas = prediction.try_model(SteadyPrices(lambda: probe(contraction), contraction), contraction, False)
     _print(f"Predictions without Blender, by {contraction}", report.prediction_lines(without_blas))
     return predictions, without_blas
 

@@ -8,7 +8,7 @@ from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
 from ..bench import in_blender
-from ..bench.timing import measure
+from ..bench.timing import one_after_another
 from . import frames
 from .steady import SteadyPrices
 
@@ -70,33 +70,24 @@ class Prediction:
         }
 
 
-def try_model(prices: SteadyPrices, rounds: int, contraction: str | None, with_blender: bool) -> list[Prediction]:
+def try_model(prices: SteadyPrices, contraction: str | None, with_blender: bool) -> list[Prediction]:
     """Predictions beside times: of whole frames through Blender, or of what NumPy does in them."""
-    return [_try_case(prices, rounds, contraction, with_blender, *case) for case in CASES]
+    return [_try_case(prices, contraction, with_blender, *case) for case in CASES]
 
 
-def _try_case(prices, rounds, contraction, with_blender, grid, waves, ripples, instants):
+def _try_case(prices, contraction, with_blender, grid, waves, ripples, instants):
     settings = frames.settings_of(Sea(wave_count=waves), grid, ripples, Foam(memory_steps=instants))
     name = f"{grid.vertex_count} vertices, {waves} waves, ripples {_text(ripples)}, foam {instants}"
 
     def timed(ocean):
-        contestant = ocean.contestant(name)
-        return prices.while_steady(
-            lambda model: Prediction(
-                name, model.total(frames.work(settings)), _undisturbed(measure([contestant], rounds)[name])
-            )
-        )
+        print(f"    {name}", flush=True)
+        measured = prices.typical_seconds(one_after_another(ocean.contestant(name)))
+        return Prediction(name, prices.model.total(frames.work(settings)), measured)
 
     if not with_blender:
         return timed(frames.NumpyFrame(settings, contraction))
     with in_blender.fresh_data():
         return timed(frames.BlenderOcean.of(settings))
-
-
-def _undisturbed(timing):
-    """Seconds of a frame as the probe reckons them: a third of the way from the fastest run to the slowest."""
-    seconds = sorted(timing.seconds())
-    return float(seconds[len(seconds) // 3])
 
 
 def _text(ripples):

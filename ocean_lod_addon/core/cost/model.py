@@ -31,7 +31,13 @@ STAGES: dict[str, Stage] = {
     "products": Stage("Wave products", lambda work: (work.multiplications, work.runs, work.floats, work.products)),
     "normals": Stage("Normals", lambda work: (float(work.normals > 0.0), work.normals)),
     "foam_products": Stage(
-        "Foam products", lambda work: (work.foam_multiplications, work.foam_runs, work.foam_floats)
+        "Foam products",
+        lambda work: (
+            work.foam_multiplications,
+            work.foam_runs,
+            work.foam_floats if work.foam_products else 0.0,
+            work.foam_products,
+        ),
     ),
     "foam": Stage("Foam", lambda work: (float(work.foam_vertices > 0.0), work.foam_floats, work.foam_vertices)),
     "write": Stage("Write mesh", lambda work: (work.vectors, work.vectors * work.vertices)),

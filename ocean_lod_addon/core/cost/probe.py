@@ -45,7 +45,15 @@ _FRAME = 1.0 / 24.0
 
 _RIPPLES = tuple(Ripples(resolution=texels) for texels in ("256", "512", "1024"))
 _NO_RIPPLES = Ripples(kind="off")
-_FOAM = ((64, 8, 64, 4), (128, 8, 32, 16), (128, 8, 160, 8), (256, 8, 64, 4), (256, 8, 32, 1))
+_FOAM = (
+    (40, 12, 64, 8),
+    (64, 8, 64, 4),
+    (80, 8, 48, 16),
+    (264, 3, 128, 16),
+    (160, 6, 160, 8),
+    (224, 6, 64, 4),
+    (256, 8, 32, 1),
+)
 """(cells, levels, waves, instants)"""
 
 _NORMALS = (1 << 13, 1 << 17)
@@ -86,7 +94,7 @@ def surface_cases(contraction: str | None = None) -> dict[str, list]:
         "factors": [(surface.work, surface.form_factors) for surface in surfaces],
         "products": [(surface.work, surface.multiply) for surface in surfaces],
         "normals": [_normals_case(count) for count in _NORMALS],
-        "foam_products": [(surface.work, surface.multiply) for surface in foamy],
+        "foam_products": [(surface.work, surface.multiply) for surface in foamy if surface.work.foam_products],
         "foam": [(surface.work, surface.find) for surface in foamy],
     }
 

@@ -33,9 +33,10 @@ class Work:
     texels           texels of ripple images that are written, times the bands in each
     far_texels       those of images of so many texels that a processor's caches do not hold them
     images           how many ripple images are written
-    foam_multiplications  multiply-adds of the columns in which foam is looked for
+    foam_multiplications  multiply-adds of the columns in which foam of the past is looked for as well
     foam_runs        rows of their products times waves, as for `runs`
-    foam_floats      numbers that they are, each looked through for foam
+    foam_floats      numbers that are looked through for foam
+    foam_products    how many products they take
     foam_vertices    vertices with foam, 0 without
     """
 
@@ -53,6 +54,7 @@ class Work:
     foam_multiplications: float
     foam_runs: float
     foam_floats: float
+    foam_products: float
     foam_vertices: float
 
 
@@ -76,24 +78,28 @@ def work_of(
         moving = np.asarray(visible)  # still water is written once
         plane, vertices, counts = tuple(itertools.compress(plane, moving)), vertices[moving], counts[moving]
     base = 4 if ocean.framing.curved_earth else 2
-    columns = sum(block.columns for block in blocks)
+    instants = 0 if ocean.foam is None else ocean.foam.memory_steps
+    # The column of the present is real, as those of the blocks are: one more block. Those of the past are complex.
+    widths = [block.columns for block in blocks] + [1] * (instants == 1)
+    past = instants if instants > 1 else 0
+    columns = sum(widths)
     inner = 2 * counts + base
     rows = np.array([tile.rows for tile in plane], dtype=float)
-    pieces = np.array([sum(_pieces(tile.columns * block.columns) for block in blocks) for tile in plane])
-    instants = 0 if ocean.foam is None else ocean.foam.memory_steps
-    foam_pieces = np.array([_pieces(tile.columns * instants) if instants else 0 for tile in plane])
+    pieces = np.array([sum(_pieces(tile.columns * width) for width in widths) for tile in plane])
+    foam_pieces = np.array([_pieces(tile.columns * past) if past else 0 for tile in plane])
     return Work(
         multiplications=float(columns * np.sum(inner * vertices)),
         runs=float(np.sum(inner * rows * pieces)),
         floats=float(columns * vertices.sum()),
-        products=float(len(blocks) * _run_count(plane, counts)),
+        products=float(len(widths) * _run_count(plane, counts)),
         factor_terms=float(_factor_terms(ocean.grid, waves.wavelength)),
         vertices=float(ocean.grid.vertex_count),
         normals=float(ocean.grid.vertex_count) if TANGENTS in blocks else 0.0,
         vectors=len(blocks) + (_FOAM_VECTORS if instants else 0.0),
-        foam_multiplications=float(instants * np.sum(inner * vertices)),
+        foam_multiplications=float(past * np.sum(inner * vertices)),
         foam_runs=float(np.sum(inner * rows * foam_pieces)),
         foam_floats=float(instants * ocean.grid.vertex_count),
+        foam_products=float(_run_count(plane, counts)) if past else 0.0,
         foam_vertices=float(ocean.grid.vertex_count) if instants else 0.0,
         **ripple_work(_images(ocean)),
     )
