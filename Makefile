@@ -96,11 +96,11 @@ EFFECTS ?=
 
 cost: environment-blender-5.2
 	$(BLENDER_5.2) -m ocean_lod_addon cost $(COST) --output out/cost.json
-	$(BLENDER_5.2) tools/accuracy_document.py out/cost.json
+	$(BLENDER_5.2) -m tools.accuracy_document out/cost.json
 
 effects: environment-blender-5.2
 	$(BLENDER_5.2) -m ocean_lod_addon effects $(EFFECTS) --output out/effects.json
-	$(BLENDER_5.2) tools/effects_document.py out/effects.json
+	$(BLENDER_5.2) -m tools.effects_document out/effects.json
 
 # Passed on to both checks, for example: make sea-checks SEA_CHECKS="--engine EEVEE --width 128"
 SEA_CHECKS ?=

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write the numbers and figures of docs/accuracy-and-cost.md from what `cost --full` has saved.
 
-    python tools/accuracy_document.py out/cost.json
+    python -m tools.accuracy_document out/cost.json
 
 What stands between the markers of the document is replaced; the text around them is written by hand.
 """
 
 import json
-import re
 import shutil
 import sys
 from pathlib import Path
+
+from .documents import filled, table
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "docs" / "accuracy-and-cost.md"
@@ -20,12 +21,6 @@ IMAGES = ROOT / "docs" / "images"
 def number(value) -> str:
     """Three digits."""
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:.3g}"
-
-
-def table(header, rows) -> str:
-    """A Markdown table."""
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
 
 
 def machine(saved) -> str:
@@ -159,21 +154,17 @@ def predictions(saved) -> str:
 PARTS = (machine, knobs, misprints, configurations, convergence, budgets, predictions)
 
 
-def filled(text: str, saved: dict) -> str:
+def made_from(saved: dict, text: str) -> str:
     """The document with every marked part made anew."""
     for part in PARTS:
-        name = part.__name__
-        pattern = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end of {name} -->)", re.DOTALL)
-        if not pattern.search(text):
-            raise SystemExit(f"{DOCUMENT.name} has no place for {name}")
-        text = pattern.sub(lambda match, part=part: f"{match[1]}{part(saved)}\n{match[2]}", text)
+        text = filled(text, part.__name__, part(saved))
     return text
 
 
 def main(saved_path: Path) -> None:
     """Fill the document and copy the figures that were saved beside the results."""
     saved = json.loads(saved_path.read_text(encoding="utf-8"))
-    DOCUMENT.write_text(filled(DOCUMENT.read_text(encoding="utf-8"), saved), encoding="utf-8")
+    DOCUMENT.write_text(made_from(saved, DOCUMENT.read_text(encoding="utf-8")), encoding="utf-8")
     for name in ("knobs", "front"):
         figure = saved_path.with_name(f"{saved_path.stem}_{name}.png")
         if figure.exists():

@@ -1,22 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Write the numbers of docs/effects.md from what `effects --output` has saved.
 
-    python tools/effects_document.py out/effects.json
+    python -m tools.effects_document out/effects.json
 
 What stands between the markers of the document is replaced; the text around them is written by hand.
 """
 
 import json
-import re
 import sys
 from pathlib import Path
+
+from .documents import filled, table
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / "docs" / "effects.md"
 
 
 def _times(milliseconds, ratio):
-    return [f"{milliseconds['on']:.1f}", f"{milliseconds['off']:.1f}", f"{ratio:.3f}"]
+    off_over_absent = f"{ratio['value']:.3f} ± {ratio['error']:.3f}"
+    return [f"{milliseconds['on']:.1f}", f"{milliseconds['off']:.1f}", off_over_absent]
 
 
 def table_of(saved) -> str:
@@ -25,7 +27,7 @@ def table_of(saved) -> str:
     header = ["effect", "frame: on, ms", "off", "off / absent", "memory: on, MB", "off"]
     for engine in engines:
         header += [f"picture in {engine}: on, ms", "off", "off / absent"]
-    rows = [header, ["---"] * len(header)]
+    rows = []
     for each in saved["effects"]:
         memory = each["memory_bytes"]
         row = [each["label"], *_times(each["frame_ms"], each["frame_off_over_absent"])]
@@ -33,9 +35,9 @@ def table_of(saved) -> str:
         for engine in engines:
             row += _times(each["render_ms"][engine], each["render_off_over_absent"][engine])
         rows.append(row)
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
     machine = saved["machine"]
-    lines += [
+    lines = [
+        table(header, rows),
         "",
         f"Measured on {machine['processor']}, {machine['cores']} cores, NumPy {machine['numpy']}, BLAS "
         f"{machine['blas']}, Blender {machine['blender']}, with {saved['vertices']} vertices.",
@@ -44,18 +46,10 @@ def table_of(saved) -> str:
     return "\n".join(lines)
 
 
-def filled(text: str, table: str) -> str:
-    """The document with the table between its markers."""
-    pattern = re.compile(r"(<!-- table -->\n).*?(<!-- end of table -->)", re.DOTALL)
-    if not pattern.search(text):
-        raise SystemExit(f"{DOCUMENT.name} has no place for the table")
-    return pattern.sub(lambda match: f"{match[1]}{table}\n{match[2]}", text)
-
-
 def main(saved_path: Path) -> None:
     """Fill the document."""
-    table = table_of(json.loads(saved_path.read_text(encoding="utf-8")))
-    DOCUMENT.write_text(filled(DOCUMENT.read_text(encoding="utf-8"), table), encoding="utf-8")
+    content = table_of(json.loads(saved_path.read_text(encoding="utf-8")))
+    DOCUMENT.write_text(filled(DOCUMENT.read_text(encoding="utf-8"), "table", content), encoding="utf-8")
     print(f"wrote {DOCUMENT.relative_to(ROOT)}")
 
 

@@ -189,12 +189,12 @@ def test_results_are_saved_as_json_csv_and_plots(tmp_path):
 def test_the_document_has_a_place_for_everything():
     text = accuracy_document.DOCUMENT.read_text(encoding="utf-8")
     saved = json.loads(json.dumps(results().as_mapping()))
-    filled = accuracy_document.filled(text, saved)
+    filled = accuracy_document.made_from(saved, text)
     assert "processor, 2 cores" in filled
     assert "| b | 0.5 | 3 |  |" in filled
     assert "1 of 1 with BLAS" in filled
     assert "0 of 1 without" in filled
-    assert accuracy_document.filled(filled, saved) == filled
+    assert accuracy_document.made_from(saved, filled) == filled
 
 
 # ------------------------------------------------------------------------------------------- bad input

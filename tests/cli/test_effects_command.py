@@ -7,6 +7,7 @@ No test here asserts how long anything takes: that what is off costs nothing is 
 import collections
 import json
 import sys
+from statistics import NormalDist
 
 import bpy
 import numpy as np
@@ -15,7 +16,7 @@ import pytest
 import ocean_lod_addon
 from ocean_lod_addon.cli import EXIT_BAD_INPUT, main
 from ocean_lod_addon.cli.bench.in_blender import fresh_data
-from ocean_lod_addon.cli.bench.timing import Timing
+from ocean_lod_addon.cli.bench.timing import Timing, paired_ratio
 from ocean_lod_addon.cli.effects import Extent, Row, measure_effects, report
 from ocean_lod_addon.cli.effects.builds import NAMES, EffectOcean, Picture
 from ocean_lod_addon.core.effects import OFF, ON
@@ -89,7 +90,7 @@ def test_a_small_measurement_becomes_text_json_and_a_page(capsys):
 
 def row_of(on, off, absent):
     frame = {
-        state: Timing(("handler",), np.full((3, 1), seconds))
+        state: Timing(("handler",), np.broadcast_to(seconds, (3, 1)))
         for state, seconds in (("on", on), ("off", off), ("absent", absent))
     }
     return Row("foam", frame, {"on": 200, "off": 100, "absent": 100}, {})
@@ -99,6 +100,21 @@ def test_three_per_cent_decide():
     assert "+2.9% at most (Foam): PASS" in report.verdicts([row_of(5.0, 1.029, 1.0)])[0]
     two = [row_of(5.0, 1.029, 1.0), row_of(5.0, 1.031, 1.0)]
     assert "+3.1% at most (Foam): MISS" in report.verdicts(two)[0]
+    noisy = row_of(5.0, np.array([[1.0], [1.05], [1.1]]), 1.0)
+    assert "+5.0% at most (Foam): UNDECIDED" in report.verdicts([noisy])[0]
+
+
+def test_a_ratio_of_turns_does_not_see_the_pace_of_the_machine():
+    """Half as fast in every other turn, both of them: the ratio is 1.02, with no error. And 101 ratios of a normal
+    distribution of 10 %: a standard error of 1.2533 * 10 % / sqrt(101), which the sample knows to some 10 %."""
+    pace = np.array([1.0, 2.0, 1.0, 2.0, 1.0])[:, None]
+    steady = paired_ratio(Timing(("a",), 1.02 * pace), Timing(("a",), pace))
+    assert (steady.value, steady.error) == (pytest.approx(1.02), pytest.approx(0.0, abs=1e-12))
+    shares = (np.arange(101) + 0.5) / 101
+    normal = np.array([NormalDist(1.0, 0.1).inv_cdf(share) for share in shares])[:, None]
+    assert paired_ratio(Timing(("a",), normal), Timing(("a",), np.ones((101, 1)))).error == pytest.approx(
+        1.2533 * 0.1 / 101**0.5, rel=0.1
+    )
 
 
 @pytest.mark.parametrize("arguments", [["--only", "rain"], ["--output", "/proc/nowhere/effects.json"]])
