@@ -12,9 +12,10 @@ from ocean_lod_addon.core.column_blocks import TANGENTS
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.errors import OutOfRangeError
 from ocean_lod_addon.core.foam import shading
+from ocean_lod_addon.core.foam.calibration import breaking_weights
 from ocean_lod_addon.core.foam.exceedance import below, both_below, some_above
 from ocean_lod_addon.core.foam.whitecap_law import whitecap_coverage
-from ocean_lod_addon.core.foam.whitecaps import Whitecaps
+from ocean_lod_addon.core.foam.whitecaps import Whitecaps, sea_breaker_wavenumber, sea_breaking_variance
 from ocean_lod_addon.core.foam_settings import Foam
 from ocean_lod_addon.core.lod import Grid, level_anchors, undisturbed_positions
 from ocean_lod_addon.core.ocean import Ocean, Surface
@@ -76,9 +77,10 @@ def test_instants_that_know_nothing_of_each_other():
 def test_coverage_is_that_of_the_law(wind):
     """Mean foam over horizontal area, in places and at times far apart, within the 25 % that the law is good to.
 
-    A hundred thousand places and more; near the middle, where foam is whitecaps, and on the whole plane.
+    A hundred thousand places and more; near the middle, where foam is whitecaps, and on the whole plane. Cells are
+    as large beside the waves at any wind.
     """
-    surface = surface_of(wind)
+    surface = surface_of(wind, grid=dataclasses.replace(GRID, cell_size=0.005 * wind**2))
     near = surface.whitecaps.shown > 0.99
     foam, near_foam = np.zeros(2), np.zeros(2)
     for number in range(40):
@@ -159,6 +161,52 @@ def test_a_sea_without_breakers_is_uniformly_foamy():
     surface = surface_of(15.0, grid=Grid(cell_size=500.0, cells=16, levels=2))
     foam, _ = foam_at(surface, 5.0)
     assert foam == pytest.approx(whitecap_coverage(15.0), rel=1e-6)
+
+
+def crest_size(waves, breaking):
+    """sqrt(m_0 / m_2) of the compression's spectrum over wavenumbers, m: crests of a Gaussian sum are as large."""
+    energy = (breaking * waves.amplitude) ** 2
+    return np.sqrt(energy.sum() / (energy * waves.wavenumber**2).sum())
+
+
+@pytest.mark.parametrize(
+    ("wind", "spectrum"), [(8.0, "pierson_moskowitz"), (19.0, "pierson_moskowitz"), (12.0, "jonswap")]
+)
+def test_whitecaps_are_not_shown_much_larger_than_they_are(wind, spectrum):
+    """Truth: the crests of all waves of the sea. Meshes of which each leaves out longer waves, as from higher and
+    higher above: whitecaps are whole up to 1.6 times that size, and from 2.5 times on there are none; JONSWAP's
+    sharper peak and the waves that stand for a spectrum change that by a tenth."""
+    sea = Sea(systems=(WaveSystem(wind_speed=wind, spectrum=spectrum),), wave_count=512)
+    shortest = 2.0 * np.pi / sea_breaker_wavenumber(sea) / 4.0
+    natural, seen = None, []
+    for factor in 2.0 ** np.arange(0.0, 6.0, 0.5):
+        grid = Grid(cell_size=factor * shortest / Grid().samples_per_wavelength, cells=64, levels=1)
+        waves = discretise(sea, grid.shortest_wavelength)
+        whitecaps = Whitecaps(Foam(), sea, grid, waves)
+        size = crest_size(waves, whitecaps.breaking)
+        natural = natural or size
+        middle = whitecaps.shown.max()
+        seen.append(middle)
+        assert size < 1.76 * natural or middle < 1.0
+        assert size < 2.75 * natural or middle == 0.0
+    assert seen[0] == 1.0
+    assert seen[-1] == 0.0
+
+
+@pytest.mark.parametrize("wind", [8.0, 19.0])
+def test_all_waves_have_the_variance_of_the_spectrum(wind):
+    """Truth: a discretisation keeps the energy of every bin; within a bin the weight changes a little."""
+    sea = sea_of(wind, wave_count=512)
+    largest = sea_breaker_wavenumber(sea)
+    waves = discretise(sea, 2.0 * np.pi / (3.0 * largest))
+    variance = 0.5 * np.sum((breaking_weights(waves.wavenumber, largest) * waves.amplitude) ** 2)
+    assert sea_breaking_variance(sea, largest) == pytest.approx(variance, rel=0.01)
+
+
+def test_from_high_above_foam_is_uniform():
+    """Cells of 14 m show waves of 56 m and more, but whitecaps in a wind of 14 m/s are a few metres large."""
+    foam, _ = foam_at(surface_of(14.0, grid=Grid(cell_size=14.0, cells=64, levels=3)), 5.0)
+    assert foam == pytest.approx(whitecap_coverage(14.0), rel=1e-6)
 
 
 def test_twice_the_coverage_is_twice_the_foam():

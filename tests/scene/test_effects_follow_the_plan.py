@@ -122,7 +122,7 @@ def foam_of(ocean):
 
 def test_frame_100_alone_has_the_foam_of_frame_100_after_all_others(shot):
     ocean, scene = shot
-    ocean.ocean_lod.sea.systems[0].wind_speed = 14.0
+    ocean.ocean_lod.sea.systems[0].wind_speed = 20.0
     scene.frame_set(100)
     alone = foam_of(ocean)
     for frame in range(1, 101):
