@@ -61,21 +61,20 @@ def visible_tiles(
 ) -> np.ndarray:
     """Which tiles can be seen, a bool for each: boxes around them that are not wholly outside some plane.
 
-    A vertex stays within the ellipsoid of half axes `carried.reach` sideways and `carried.highest` up and down
-    around its undisturbed place moved by `carried.shift`. With a finite `curved_radius` (m) the sea sinks with
-    distance.
+    A vertex stays around its undisturbed place moved by `carried.shift`, within an ellipsoid of the half axes
+    `carried.highest` up and down and `carried.orbit_ratio` times that sideways. With a finite `curved_radius` (m)
+    the sea sinks with distance.
     """
     centre, half = _boxes(grid, anchors)
-    n, offset = planes[:, :3], planes[:, 3]
-    furthest = np.abs(centre - anchors[0]) + half
-    drop = (furthest**2).sum(axis=1) / (2.0 * curved_radius)
-    inwards = (
-        centre @ n[:, :2].T
-        + half @ np.abs(n[:, :2].T)
-        + carried.shift @ n.T
-        + np.outer(drop, np.maximum(-n[:, 2], 0.0))
-        + np.hypot(np.outer(carried.reach, np.hypot(n[:, 0], n[:, 1])), np.outer(carried.highest, n[:, 2]))
+    n, offset = planes[:, :3].T, planes[:, 3]
+    ellipsoid = np.hypot(carried.orbit_ratio * np.hypot(n[0], n[1]), n[2])
+    inwards = np.column_stack([centre, half, carried.shift, carried.highest]) @ np.vstack(
+        [n[:2], np.abs(n[:2]), n, ellipsoid]
     )
+    if np.isfinite(curved_radius):
+        furthest = np.abs(centre - anchors[0]) + half
+        drop = (furthest**2).sum(axis=1) / (2.0 * curved_radius)
+        inwards += np.outer(drop, np.maximum(-n[2], 0.0))
     return (inwards >= -offset).all(axis=1)
 
 

@@ -7,6 +7,8 @@ its displacement by less than the k r-th part of its amplitude. So the sum of su
 the tile is, and only the rest is left to chance.
 """
 
+import functools
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,12 +29,28 @@ RIM = 1.5
 
 @dataclass(frozen=True, eq=False)
 class Carried:
-    """Of each tile: `shift` (tiles, 3) m by waves that carry the whole of it, and bounds on what all others add to
-    that: `highest` up and down and `reach` sideways, (tiles,) m."""
+    """Of each tile: `shift` (tiles, 3) m by waves that carry the whole of it, and a bound on what all others add
+    to that: `highest` (tiles,) m up and down, and `orbit_ratio` times as far sideways."""
 
     shift: np.ndarray
     highest: np.ndarray
-    reach: np.ndarray
+    orbit_ratio: float
+
+
+@dataclass(frozen=True, eq=False)
+class _LevelTiles:
+    """Where the tiles of a level are, in cells from its anchor: they stand in rows and columns.
+
+    here     which tiles these are
+    radius   from the centre of the largest to the corner of what belongs to it
+    centres  of the rows, and of the columns
+    places   of each tile: its row, and its column
+    """
+
+    here: slice
+    radius: float
+    centres: tuple[np.ndarray, np.ndarray]
+    places: tuple[np.ndarray, np.ndarray]
 
 
 def highest_wave(waves: WaveSet) -> float:
@@ -43,28 +61,26 @@ def highest_wave(waves: WaveSet) -> float:
 def carried_at_any_time(grid: Grid, waves: WaveSet) -> Carried:
     """What may be said without a time: every wave anywhere."""
     tiles = len(tile_table(grid.cells, grid.levels).level)
-    highest = np.full(tiles, highest_wave(waves))
-    return Carried(np.zeros((tiles, 3)), highest, highest * waves.orbit_ratio.max(initial=0.0))
+    orbit_ratio = float(waves.orbit_ratio.max(initial=0.0))
+    return Carried(np.zeros((tiles, 3)), np.full(tiles, highest_wave(waves)), orbit_ratio)
 
 
 def carried(grid: Grid, anchors: np.ndarray, waves: WaveSet, time: float) -> Carried:
     """Where the tiles of a plane at level anchors (levels, 2) m are at a `time` in s."""
-    anywhere = carried_at_any_time(grid, waves)
-    shift, highest = anywhere.shift, anywhere.highest
-    table = tile_table(grid.cells, grid.levels)
+    result = carried_at_any_time(grid, waves)
+    anywhere = highest_wave(waves)
     phases, k = waves.phase_at(time), waves.wavenumber
     reach = window_reach(grid, waves.wavelength) * FADE_START
-    for level in range(grid.levels):
-        here = table.level == level
-        radius = _radius(grid, table, here, level)
+    for level, tiles in enumerate(_levels(grid.cells, grid.levels)):
+        radius = tiles.radius * grid.spacing(level)
         carries = (k * radius < _MOST_TURN) & (reach >= _furthest(grid, anchors, level))
-        if radius > anywhere.highest[0] or not carries.any():
+        if radius > anywhere or not carries.any():
             break  # tiles of coarser levels are larger yet: waves hardly change which of them are seen
         at_anchor = np.mod(phases + anchors[level] @ (k * _heading(waves)), 2.0 * np.pi)
-        shift[here] = _displacement(grid, waves, at_anchor, carries, table, here, level)
+        result.shift[tiles.here] = _displacement(tiles, grid.spacing(level), waves, at_anchor, carries)
         unknown = np.where(carries, 1.0 - np.cos(k * radius), 0.5)
-        highest[here] = _bound(np.sum(unknown * waves.amplitude**2))
-    return Carried(shift, highest, highest * waves.orbit_ratio.max(initial=0.0))
+        result.highest[tiles.here] = _bound(np.sum(unknown * waves.amplitude**2))
+    return result
 
 
 def _bound(variance):
@@ -76,11 +92,19 @@ def _heading(waves):
     return np.stack([np.cos(waves.direction), np.sin(waves.direction)])
 
 
-def _radius(grid, table, here, level):
-    """From the centre of a level's largest tile to the corner of what belongs to it, m."""
-    rows = (table.row_stop - table.row_start)[here].max() - 1
-    columns = (table.column_stop - table.column_start)[here].max() - 1
-    return grid.spacing(level) * np.hypot(0.5 * rows + RIM, 0.5 * columns + RIM)
+@functools.lru_cache(maxsize=32)
+def _levels(cells, levels):
+    table, result = tile_table(cells, levels), []
+    ends = np.searchsorted(table.level, np.arange(levels + 1)).tolist()
+    for here in itertools.starmap(slice, itertools.pairwise(ends)):
+        halves, centres, places = [], [], []
+        for first, past in ((table.row_start, table.row_stop), (table.column_start, table.column_stop)):
+            halves.append(0.5 * (past - first - 1)[here].max() + RIM)
+            twice, place = np.unique((first + past - 1)[here], return_inverse=True)
+            centres.append(0.5 * twice - cells // 2)
+            places.append(place)
+        result.append(_LevelTiles(here, float(np.hypot(*halves)), tuple(centres), tuple(places)))
+    return tuple(result)
 
 
 def _furthest(grid, anchors, level):
@@ -88,26 +112,18 @@ def _furthest(grid, anchors, level):
     return grid.spacing(level) * (0.5 * grid.cells + RIM) + np.abs(anchors - anchors[level]).max()
 
 
-def _displacement(grid, waves, phases, chosen, table, here, level):
+def _displacement(tiles, spacing, waves, phases, chosen):
     """The chosen waves' sum (corrected Eq. 2) at the centres of a level's tiles, (tiles here, 3) m.
 
-    `phases` are those at the level's anchor. Centres stand in rows and columns, along which the phase separates as
-    it does in core.kernel.
+    `phases` are those at the level's anchor. Along rows and columns the phase separates as it does in core.kernel.
     """
     heading, C = _heading(waves)[:, chosen], waves.orbit_ratio[chosen]
-    factors, places = [], []
-    for first, past, along in zip(
-        (table.row_start, table.column_start),
-        (table.row_stop, table.column_stop),
-        waves.wavenumber[chosen] * heading,
-        strict=True,
-    ):
-        twice, place = np.unique((first + past)[here] - 1, return_inverse=True)
-        factors.append(_phasors(np.outer((0.5 * twice - grid.cells // 2) * grid.spacing(level), along)))
-        places.append(place)
-    P, Q = factors[0] * (waves.amplitude[chosen] * _phasors(phases[chosen])), factors[1].T
-    weights = (1j * C * heading[0], 1j * C * heading[1], 1.0)
-    return np.stack([((P * weight) @ Q).real[places[0], places[1]] for weight in weights], axis=-1)
+    along = waves.wavenumber[chosen] * heading * spacing
+    P, Q = (_phasors(np.outer(centres, turn)) for centres, turn in zip(tiles.centres, along, strict=True))
+    P *= waves.amplitude[chosen].astype(np.float32) * _phasors(phases[chosen])
+    weights = (1j * C * heading[0], 1j * C * heading[1], np.ones_like(C))
+    sums = [(P * weight.astype(np.complex64)) @ Q.T for weight in weights]
+    return np.stack([each.real[tiles.places] for each in sums], axis=-1)
 
 
 def _phasors(phases):

@@ -28,12 +28,13 @@ GRID = Grid(cell_size=0.1, cells=128, levels=9)
 
 def seen(view, margin=0.0, grid=GRID):
     anchors = level_anchors(grid, plane_centre(grid, view))
-    return visible_tiles(grid, anchors, frame_planes(view, margin), anywhere(2.0)), anchors
+    return visible_tiles(grid, anchors, frame_planes(view, margin), anywhere(2.0, grid)), anchors
 
 
-def anywhere(height):
+def anywhere(height, grid):
     """Waves of this height, wherever they are."""
-    return Carried(np.zeros((1, 3)), height, height)
+    count = len(tiles(grid.cells, grid.levels))
+    return Carried(np.zeros((count, 3)), np.full(count, height), 1.0)
 
 
 VIEWS = {

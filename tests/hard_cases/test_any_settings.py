@@ -247,7 +247,9 @@ def test_what_the_camera_sees_is_never_left_flat(grid, camera, centre, highest, 
     """
     anchors = level_anchors(grid, centre)
     planes = frame_planes(camera, margin)
-    seen = visible_tiles(grid, anchors, planes, Carried(np.zeros((1, 3)), highest, highest))
+    count = len(tiles(grid.cells, grid.levels))
+    anywhere = Carried(np.zeros((count, 3)), np.full(count, highest), 1.0)
+    seen = visible_tiles(grid, anchors, planes, anywhere)
     random = np.random.default_rng(4)
     points = undisturbed_positions(grid, anchors)
     directions = random.normal(size=(len(points), 3))
