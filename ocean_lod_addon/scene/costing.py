@@ -57,7 +57,7 @@ def model() -> CostModel | None:
 
 
 def measure_machine() -> CostModel:
-    """Find the prices of this machine: about a second."""
+    """Find the prices of this machine: two or three seconds."""
     with fresh_data():
         cases = probe.surface_cases() | {"ripples": probe.ripple_cases(_shown_image)} | _blender_cases()
         _machine.model = CostModel(probe.measured_prices(cases))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How long a frame takes: for each stage a sum of the work in it, each kind of work at its own price.
 
-The prices are those of one machine, one NumPy and one Blender; `probe` finds them in a second.
+The prices are those of one machine, one NumPy and one Blender; `probe` finds them in a few seconds.
 """
 
 import itertools

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A second of measurements that finds the prices of the stages which NumPy does by itself."""
+"""A few seconds of measurements that find the prices of the stages which NumPy does by itself."""
 
 import time
 from dataclasses import fields, replace
