@@ -38,8 +38,8 @@ _PLANES = (
 """(cells, levels, waves, columns): together they tell the prices of arithmetic, of memory and of calls apart."""
 
 _ROUNDS = 7
-_PATIENCE = 0.06
-"""s; what has taken this long in all sits out the rounds that are left, after the first two."""
+_PATIENCE, _LEAST = 0.06, 3
+"""s, rounds; what has taken this long in all sits out the rounds that are left after this many."""
 
 _FRAME = 1.0 / 24.0
 
@@ -72,7 +72,7 @@ def typical_seconds(runs) -> list[float]:
     taken = [[] for _ in runs]
     for number in range(1, _ROUNDS + 1):
         for run, times in zip(runs, taken, strict=True):
-            if number > 2 and sum(times) > _PATIENCE:
+            if number > _LEAST and sum(times) > _PATIENCE:
                 continue
             start = time.perf_counter()
             run(_FRAME * number)
@@ -100,8 +100,8 @@ def surface_cases(contraction: str | None = None) -> dict[str, list]:
 
 
 def ripple_cases(show=None) -> list:
-    """What tells the price of ripples; `show`(texels) gives a function that each new image is handed to."""
-    return [_ripples_case(ripples, show and show(ripples.texels)) for ripples in _RIPPLES]
+    """What tells the price of ripples; `show`(texels) gives a function that each frame's image is handed to."""
+    return [_ripples_case(ripples, show) for ripples in _RIPPLES]
 
 
 def measured_prices(cases: dict[str, list]) -> dict[str, tuple[float, ...]]:
@@ -171,15 +171,18 @@ def _normals_case(count):
 
 
 def _ripples_case(ripples, show):
+    """All images of a frame, one after the other: together they push each other out of the caches."""
     ocean = Ocean(ripples=ripples)
-    tile = bump_layout(ripples, ocean.grid.shortest_wavelength).tiles[0]
+    images = bump_layout(ripples, ocean.grid.shortest_wavelength).tiles
     density = ripple_spectrum(ocean.sea, ocean.grid.shortest_wavelength).density
-    synthesis = tile_syntheses(density, ocean.sea, (tile,))[0]
+    syntheses = tile_syntheses(density, ocean.sea, images)
+    shows = [show and show(image.texels) for image in images]
 
     def run(time):
-        out = np.empty((tile.texels, tile.texels, 4), np.float32)
-        synthesis.image(time, out)
-        if show is not None:
-            show(out)
+        for image, synthesis, show_this in zip(images, syntheses, shows, strict=True):
+            out = np.empty((image.texels, image.texels, 4), np.float32)
+            synthesis.image(time, out)
+            if show_this is not None:
+                show_this(out)
 
-    return replace(_NOTHING, **ripple_work((tile,))), run
+    return replace(_NOTHING, **ripple_work(images)), run

@@ -141,8 +141,8 @@ def _factor_terms(grid: Grid, wavelength):
     return sum((grid.cells + 1) * int(np.count_nonzero(reach > distance)) for distance in inner)
 
 
-_CACHED_TEXELS = 256
-"""Texels along a side of an image, in complex numbers of 8 bytes, that caches hold beside all else: 0.5 MB."""
+_CACHED_TEXELS = 512
+"""Texels along a side of an image, in complex numbers of 8 bytes, that caches hold beside all else: 2 MB."""
 
 
 def ripple_work(images) -> dict[str, float]:
