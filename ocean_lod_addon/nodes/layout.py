@@ -16,11 +16,13 @@ ROW_GAP = 25.0
 FRAME_MARGIN = 40.0
 """Room around the nodes of a frame for its border and title."""
 
-_HEADER_HEIGHT = 32.0
+_HEADER_HEIGHT = 40.0
 _ROW_HEIGHT = 22.0
 _CHARACTER_WIDTH = 7.0
 _TITLE_MARGIN, _SOCKET_MARGIN, _SELECTOR_MARGIN = 36.0, 30.0, 112.0
 """Room beside a node's title, a socket's name, and the name of a group among its buttons and number of users."""
+_IMAGE_BUTTONS = 80.0
+"""Room that the selector of an image takes besides."""
 
 _VALUE_CHARACTERS = 8
 """Room that a number or a color takes beside the name of its socket."""
@@ -30,15 +32,20 @@ _DROPDOWN_ROWS = {
     "ShaderNodeVectorMath": 1,
     "ShaderNodeMix": 3,
     "ShaderNodeBsdfMetallic": 2,
-    "ShaderNodeBsdfGlossy": 1,
+    "ShaderNodeBsdfAnisotropic": 2,  # Glossy
     "ShaderNodeBsdfGlass": 1,
     "ShaderNodeBsdfRefraction": 1,
     "ShaderNodeVectorTransform": 3,
     "ShaderNodeAttribute": 2,
     "ShaderNodeOutputMaterial": 1,
     "ShaderNodeGroup": 1,
+    "ShaderNodeSeparateColor": 1,
+    "ShaderNodeTexWhiteNoise": 1,
+    "ShaderNodeTexNoise": 4,
+    "ShaderNodeTexImage": 7,
+    "ShaderNodeVolumeCoefficients": 5,
 }
-"""Rows of menus and check boxes that a node shows besides its sockets."""
+"""Rows of menus and check boxes that a node shows besides its sockets, as Blender 5.2 draws them."""
 
 
 @dataclass
@@ -64,9 +71,11 @@ def fitting_width(node) -> float:
     """The width at which no title and no socket's name is cut off."""
     names = [_SOCKET_MARGIN + _CHARACTER_WIDTH * _characters(socket) for socket in (*node.inputs, *node.outputs)]
     title = _TITLE_MARGIN + _CHARACTER_WIDTH * len(node.label)
-    tree = getattr(node, "node_tree", None)
-    field = tree.name if tree else getattr(node, "attribute_name", "")
+    tree, image = getattr(node, "node_tree", None), getattr(node, "image", None)
+    used = tree or image
+    field = used.name if used else getattr(node, "attribute_name", "")
     selector = _SELECTOR_MARGIN + _CHARACTER_WIDTH * len(field) if field else 0.0
+    selector += _IMAGE_BUTTONS if image else 0.0
     return max(node.width, title, selector, *names)
 
 

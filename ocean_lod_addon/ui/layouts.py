@@ -23,7 +23,7 @@ def draw_lines(layout, lines, name_share=0.55) -> None:
     for line in lines:
         row = column.split(factor=name_share)
         row.label(text=line.name)
-        values = row.row()
+        values = row.split()
         for value in line.values:
             cell = values.row()
             cell.alignment = "RIGHT"

@@ -14,6 +14,10 @@ from .layouts import draw_lines, draw_text
 _ITEMS = [(name, quality.label, quality.description) for name, quality in QUALITIES.items()]
 
 
+_BUTTONS_PER_ROW = 3
+"""As many as show their names in a sidebar of Blender's own width."""
+
+
 class _QualityOperator:
     """What these operators share."""
 
@@ -92,9 +96,9 @@ class OCEAN_LOD_PT_quality(_QualityOperator, bpy.types.Panel):
     def draw(self, context):
         layout, ob = self.layout, context.object
         _, name = properties.sized_plane(ob.ocean_lod)
-        row = layout.row(align=True)
+        grid = layout.grid_flow(columns=_BUTTONS_PER_ROW, row_major=True, even_columns=True, align=True)
         for key, quality in QUALITIES.items():
-            operator = row.operator(
+            operator = grid.operator(
                 OBJECT_OT_ocean_lod_set_quality.bl_idname, text=quality.label, depress=key == name
             )
             operator.quality = key

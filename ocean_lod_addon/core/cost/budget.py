@@ -56,8 +56,9 @@ def describe(rung: Rung) -> str:
 
 
 def milliseconds(seconds: float) -> str:
-    """Seconds as a text in ms, three digits."""
-    return f"{1e3 * seconds:.3g} ms"
+    """Seconds as a text in ms, three digits; whole ms from a second on."""
+    value = 1e3 * seconds
+    return f"{value:.3g} ms" if value < 999.5 else f"{value:.0f} ms"
 
 
 HEADROOM = 0.08
