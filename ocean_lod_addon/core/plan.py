@@ -21,6 +21,7 @@ from .lod import Grid
 from .material_settings import MaterialSettings
 from .optics.cox_munk import skewness_c03
 from .parameters import parameters_of
+from .readback_text import plain_number
 from .ripple_settings import Ripples
 from .ripples.bump import BumpLayout, bump_layout
 from .roughness import roughening_system
@@ -300,7 +301,7 @@ def _pixels(facts, length):
 
 
 def _in_pixels(pixels):
-    return f"{pixels:.3g} pixel{'' if pixels == 1 else 's'}"
+    return f"{plain_number(pixels)} pixel{'' if pixels == 1 else 's'}"
 
 
 def _no_shading(facts):

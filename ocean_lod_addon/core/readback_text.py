@@ -85,6 +85,11 @@ def quantity(value: float | None, unit: str = "") -> str:
     return f"{value:,.{min(max(decimals, 0), _MOST_DECIMALS)}f} {unit}".rstrip()
 
 
+def plain_number(value: float) -> str:
+    """A number with three digits where that takes no exponent, and no zeros behind them: 15, 2.25, 1,709."""
+    return f"{value:.3g}" if abs(value) < 999.5 else f"{value:,.0f}"
+
+
 def _beaufort(report):
     return "-" if report.beaufort_number is None else f"{report.beaufort_number}, {report.beaufort_name.lower()}"
 

@@ -4,6 +4,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ..readback_text import plain_number
 from .model import STAGES
 from .quality import Rung
 
@@ -56,9 +57,8 @@ def describe(rung: Rung) -> str:
 
 
 def milliseconds(seconds: float) -> str:
-    """Seconds as a text in ms, three digits; whole ms from a second on."""
-    value = 1e3 * seconds
-    return f"{value:.3g} ms" if value < 999.5 else f"{value:.0f} ms"
+    """Seconds as a text in ms, three digits."""
+    return f"{plain_number(1e3 * seconds)} ms"
 
 
 HEADROOM = 0.08
