@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A first shot around an ocean: camera, physical sky with its sun, colour management."""
+"""A first shot around an ocean: camera, physical sky with its sun, colour management.
+
+The exposure is in the strength of the sky, not in the view. With any exposure of the view but 0 EEVEE's pixel
+filter counts bright samples less than dark ones: a glitter path gets darker and is speckled with dark pixels.
+"""
 
 import math
 
@@ -33,7 +37,7 @@ def add_camera(scene, shot: Shot):
 
 
 def add_sky(scene, shot: Shot):
-    """A world with Blender's physical sky, the sun's disc in it."""
+    """A world with Blender's physical sky, the sun's disc in it, exposed for the picture."""
     world = bpy.data.worlds.new("Sky")
     if world.node_tree is None:
         world.use_nodes = True
@@ -47,6 +51,7 @@ def add_sky(scene, shot: Shot):
     sky.sun_elevation = shot.sun_elevation
     sky.sun_rotation = math.pi / 2 - shot.sun_azimuth  # the node counts clockwise from +y
     background = tree.nodes.new("ShaderNodeBackground")
+    background.inputs["Strength"].default_value = 2.0 ** (_DAYLIGHT_EXPOSURE + shot.exposure)
     output = tree.nodes.new("ShaderNodeOutputWorld")
     tree.links.new(sky.outputs["Color"], background.inputs["Color"])
     tree.links.new(background.outputs["Background"], output.inputs["Surface"])
@@ -55,15 +60,15 @@ def add_sky(scene, shot: Shot):
     return world
 
 
-def set_exposure(scene, shot: Shot) -> None:
-    """Film-like tone mapping at the exposure of a sunny day."""
+def set_tone_mapping(scene) -> None:
+    """Film-like tone mapping."""
     scene.view_settings.view_transform = "AgX"
     scene.view_settings.look = "AgX - Medium High Contrast"
-    scene.view_settings.exposure = _DAYLIGHT_EXPOSURE + shot.exposure
+    scene.view_settings.exposure = 0.0
 
 
 def build(scene, shot: Shot) -> None:
-    """Camera, sky and exposure of a shot."""
+    """Camera, sky and tone mapping of a shot."""
     add_camera(scene, shot)
     add_sky(scene, shot)
-    set_exposure(scene, shot)
+    set_tone_mapping(scene)

@@ -56,7 +56,7 @@ def luminance(scene) -> np.ndarray:
         image.pixels.foreach_get(pixels)
         bpy.data.images.remove(image)
     rgb = pixels.reshape(height, width, -1)[:, :, :3].astype(np.float64)
-    return rgb @ (0.2126, 0.7152, 0.0722) * 2.0**scene.view_settings.exposure
+    return rgb @ (0.2126, 0.7152, 0.0722)
 
 
 def stretched(picture: np.ndarray) -> np.ndarray:
