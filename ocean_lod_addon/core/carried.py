@@ -68,16 +68,17 @@ def carried_at_any_time(grid: Grid, waves: WaveSet) -> Carried:
 def carried(grid: Grid, anchors: np.ndarray, waves: WaveSet, time: float) -> Carried:
     """Where the tiles of a plane at level anchors (levels, 2) m are at a `time` in s."""
     result = carried_at_any_time(grid, waves)
-    anywhere = highest_wave(waves)
+    anywhere = result.highest.max()
     phases, k = waves.phase_at(time), waves.wavenumber
+    heading = np.stack([np.cos(waves.direction), np.sin(waves.direction)])
     reach = window_reach(grid, waves.wavelength) * FADE_START
     for level, tiles in enumerate(_levels(grid.cells, grid.levels)):
         radius = tiles.radius * grid.spacing(level)
         carries = (k * radius < _MOST_TURN) & (reach >= _furthest(grid, anchors, level))
         if radius > anywhere or not carries.any():
             break  # tiles of coarser levels are larger yet: waves hardly change which of them are seen
-        at_anchor = np.mod(phases + anchors[level] @ (k * _heading(waves)), 2.0 * np.pi)
-        result.shift[tiles.here] = _displacement(tiles, grid.spacing(level), waves, at_anchor, carries)
+        at_anchor = np.mod(phases + anchors[level] @ (k * heading), 2.0 * np.pi)
+        result.shift[tiles.here] = _displacement(tiles, grid.spacing(level), waves, heading, at_anchor, carries)
         unknown = np.where(carries, 1.0 - np.cos(k * radius), 0.5)
         result.highest[tiles.here] = _bound(np.sum(unknown * waves.amplitude**2))
     return result
@@ -86,10 +87,6 @@ def carried(grid: Grid, anchors: np.ndarray, waves: WaveSet, time: float) -> Car
 def _bound(variance):
     """The largest height above or below 0 of a sum of waves of this variance in m^2."""
     return _HIGHEST_WAVE * 4.0 * np.sqrt(variance)
-
-
-def _heading(waves):
-    return np.stack([np.cos(waves.direction), np.sin(waves.direction)])
 
 
 @functools.lru_cache(maxsize=32)
@@ -112,12 +109,12 @@ def _furthest(grid, anchors, level):
     return grid.spacing(level) * (0.5 * grid.cells + RIM) + np.abs(anchors - anchors[level]).max()
 
 
-def _displacement(tiles, spacing, waves, phases, chosen):
+def _displacement(tiles, spacing, waves, heading, phases, chosen):
     """The chosen waves' sum (corrected Eq. 2) at the centres of a level's tiles, (tiles here, 3) m.
 
     `phases` are those at the level's anchor. Along rows and columns the phase separates as it does in core.kernel.
     """
-    heading, C = _heading(waves)[:, chosen], waves.orbit_ratio[chosen]
+    heading, C = heading[:, chosen], waves.orbit_ratio[chosen]
     along = waves.wavenumber[chosen] * heading * spacing
     P, Q = (_phasors(np.outer(centres, turn)) for centres, turn in zip(tiles.centres, along, strict=True))
     P *= waves.amplitude[chosen].astype(np.float32) * _phasors(phases[chosen])

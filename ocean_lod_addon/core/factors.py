@@ -127,7 +127,7 @@ class Level:
 
 
 class _Right:
-    """The right factor of one block of columns on one level, which owns it.
+    """The right factor of one block of columns on one level, which owns it; its `base` is for still water.
 
     A weak reference back lets a level that is no longer used go at once, not with the next search for cycles.
     """
@@ -136,6 +136,7 @@ class _Right:
         self._level, self._block = weakref.proxy(level), block
         self._windows = Windows(level, axis=1)
         self._weights = block.weights(level.waves)[level.present].astype(np.complex64)  # (waves, columns)
+        self.base = np.zeros((level.base_rows, block.columns * len(level.lines)), np.float32)
 
     def place(self, anchors):
         """Refill what changes when the anchors have moved."""
@@ -148,6 +149,7 @@ class _Right:
         base[-1], base[-2] = one, x
         if level.curved:
             base[-4] = x_squared
+        self.base[:] = base.reshape(len(base), -1)
         self._put_base(base)
 
     def _refill(self, waves, shift):
@@ -158,7 +160,7 @@ class _Right:
 
 
 class _PlainRight(_Right):
-    """R as it stands in core.kernel, for each strip of tiles by its first line; `base` is for still water."""
+    """R as it stands in core.kernel, for each strip of tiles by its first line."""
 
     mirrored = False
 
@@ -169,10 +171,8 @@ class _PlainRight(_Right):
             start: aligned_matrix(rows, block.columns * (stop - start))
             for start, stop in tile_columns(level.grid.cells)
         }
-        self.base = np.zeros((level.base_rows, block.columns * len(level.lines)), np.float32)
 
     def _put_base(self, base):
-        self.base[:] = base.reshape(len(base), -1)
         self._put(slice(2 * self._level.wave_count, None), base)
 
     def _put_waves(self, waves, weighted):
@@ -187,7 +187,7 @@ class _PlainRight(_Right):
 
 
 class _MirroredRight(_Right):
-    """Those of U and V, for each strip of the upper half by its first line; `base` is for still water."""
+    """Those of U and V, for each strip of the upper half by its first line."""
 
     mirrored = True
 
@@ -200,10 +200,8 @@ class _MirroredRight(_Right):
             for start, stop in tile_columns(level.grid.cells)
             if start >= level.grid.cells // 2
         }
-        self.base = np.zeros((level.base_rows, block.columns * len(level.lines)), np.float32)
 
     def _put_base(self, base):
-        self.base[:] = base.reshape(len(base), -1)
         rows = slice(self._level.wave_count + self._level.fading, None)
         for which, part in enumerate(self._parts(base)):
             self._put(which, rows, part)

@@ -81,6 +81,7 @@ class FrameKernel:
         self._contraction = CONTRACTIONS[contraction or fastest_contraction()]
         self._tiles = tiles(grid.cells, grid.levels)
         self._table = tile_table(grid.cells, grid.levels)
+        self._first_tiles = np.searchsorted(self._table.level, np.arange(grid.levels))
         mirrored = self._contraction.mirrored
         self._levels = [
             Level(grid, number, waves, self._order, curved_earth, mirrored) for number in range(grid.levels)
@@ -148,10 +149,8 @@ class FrameKernel:
         """For each level its lines from the first to the last tile that is visible."""
         if visible is None:
             return [slice(0, len(level.lines)) for level in self._levels]
-        table = self._table
-        begins = np.searchsorted(table.level, np.arange(len(self._levels)))
-        first = np.minimum.reduceat(np.where(visible, table.row_start, _NO_ROW), begins)
-        past = np.maximum.reduceat(np.where(visible, table.row_stop, 0), begins)
+        first = np.minimum.reduceat(np.where(visible, self._table.row_start, _NO_ROW), self._first_tiles)
+        past = np.maximum.reduceat(np.where(visible, self._table.row_stop, 0), self._first_tiles)
         return [slice(min(start, stop), stop) for start, stop in zip(first.tolist(), past.tolist(), strict=True)]
 
     def products(

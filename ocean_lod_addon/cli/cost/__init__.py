@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from ...core.contraction import CONTRACTIONS, fastest_contraction
 from ...core.cost.model import CostModel
-from ...core.cost.probe import measured_prices, probe, ripple_cases, surface_cases
+from ...core.cost.probe import measured_prices, numpy_cases, probe
 from ..arguments import real_number
 from ..bench import in_blender
 from ..bench.machine import Machine, disturbance, this_machine
@@ -186,7 +186,7 @@ def _try_predictions(options, prices, with_blender):
     where = "through Blender" if with_blender else "without Blender"
     _print(f"Predictions, {where}, by {fastest_contraction()}", report.prediction_lines(predictions))
     contraction = options.contraction or "einsum"
-    cases = surface_cases(contraction) | {"ripples": ripple_cases()}
+    cases = numpy_cases(contraction)
     alone = SteadyPrices(lambda: CostModel(measured_prices(cases)), contraction)
     without_blas = prediction.try_model(alone, contraction, False)
     _print(f"Predictions without Blender, by {contraction}", report.prediction_lines(without_blas))

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...core.contraction import CONTRACTIONS, Product, fastest_contraction
 from ...core.cost.model import CostModel
+from ...core.cost.probe import typical
 
 _STEADY = 0.08
 """The pace may change by this share."""
@@ -51,7 +52,7 @@ class _Yardstick:
             np.multiply(self._long, self._long, out=self._squares)
             sum(number * number for number in range(_STEPS))
             taken.append(time.perf_counter() - start)
-        return sorted(taken)[runs // 3]
+        return typical(taken)
 
 
 class SteadyPrices:
@@ -80,9 +81,11 @@ class SteadyPrices:
         for _ in range(_ATTEMPTS):
             steady, disturbed = self._turns(run)
             if 2 * len(steady) >= _WANTED:
-                return _typical(steady)
+                break
             self._refresh()
-        return _typical(steady + disturbed)
+        else:
+            steady += disturbed
+        return typical(list(itertools.chain.from_iterable(steady)))
 
     def _turns(self, run):
         """Seconds of each run in turns at the present prices' pace, and in others."""
@@ -117,9 +120,3 @@ def _turn(run):
         run()
         taken.append(time.perf_counter() - start)
     return taken
-
-
-def _typical(turns):
-    """A third of the way from the fastest run to the slowest."""
-    taken = sorted(itertools.chain.from_iterable(turns))
-    return taken[len(taken) // 3]

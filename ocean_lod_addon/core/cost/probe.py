@@ -64,8 +64,7 @@ _NOTHING = Work(*[0.0] * len(fields(Work)))
 def typical_seconds(runs) -> list[float]:
     """Seconds that each of some functions of the time takes, from some rounds of all in turns.
 
-    What else the machine does only ever adds to a time, so this is the one a third of the way from the fastest to
-    the slowest; and in turns it can not hit one of them alone. A first round is not counted.
+    In turns, what else the machine does can not hit one of them alone. A first round is not counted.
     """
     for run in runs:
         run(0.0)
@@ -77,12 +76,22 @@ def typical_seconds(runs) -> list[float]:
             start = time.perf_counter()
             run(_FRAME * number)
             times.append(time.perf_counter() - start)
-    return [sorted(times)[len(times) // 3] for times in taken]
+    return [typical(times) for times in taken]
+
+
+def typical(seconds) -> float:
+    """A third of the way from the fastest to the slowest: whatever else the machine does only adds to a time."""
+    return sorted(seconds)[len(seconds) // 3]
 
 
 def probe(contraction: str | None = None) -> CostModel:
     """Prices of waves, normals and ripples on this machine, with a contraction of core.contraction or its own."""
-    return CostModel(measured_prices(surface_cases(contraction) | {"ripples": ripple_cases()}))
+    return CostModel(measured_prices(numpy_cases(contraction)))
+
+
+def numpy_cases(contraction: str | None = None) -> dict[str, list]:
+    """What tells the prices of all that NumPy does by itself."""
+    return surface_cases(contraction) | {"ripples": ripple_cases()}
 
 
 def surface_cases(contraction: str | None = None) -> dict[str, list]:
