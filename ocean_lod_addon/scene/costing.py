@@ -5,6 +5,7 @@ Prices are measured, settings chosen by them are written, once, by operators and
 on a time.
 """
 
+import contextlib
 from dataclasses import fields, replace
 
 import bpy
@@ -58,10 +59,16 @@ def model() -> CostModel | None:
 
 def measure_machine() -> CostModel:
     """Find the prices of this machine: two or three seconds."""
-    with fresh_data():
-        cases = probe.surface_cases() | {"ripples": probe.ripple_cases(_shown_image)} | _blender_cases()
+    with price_cases() as cases:
         _machine.model = CostModel(probe.measured_prices(cases))
     return _machine.model
+
+
+@contextlib.contextmanager
+def price_cases():
+    """What tells the prices of all stages, as `probe.measured_prices` takes it; it is gone after the context."""
+    with fresh_data():
+        yield probe.surface_cases() | {"ripples": probe.ripple_cases(_shown_image)} | _blender_cases()
 
 
 def _shown_image(texels):

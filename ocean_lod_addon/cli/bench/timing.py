@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Times of several things, measured in turns, so that what else the machine does slows all of them alike."""
 
+import itertools
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -127,15 +128,17 @@ def measure(contestants: list[Contestant], rounds: int) -> dict[str, Timing]:
 def alternate(contestants: list[Contestant], cycles: int) -> dict[str, Timing]:
     """Times of all contestants by name, each run once in every cycle: for small differences between equals.
 
-    What else the machine does changes more slowly than a cycle, and no run finds the caches as it left them. The
-    first cycle is not timed.
+    What else the machine does changes more slowly than a cycle, and no run finds the caches as it left them. Cycle
+    by cycle they take every order, so that none always runs after the same other. The first cycle is not timed.
     """
     clock = _FrameClock()
-    cycles_of_runs = [[_timed_run(one, clock) for one in contestants] for _ in range(cycles + 1)][1:]
-    return {
-        contestant.name: Timing(tuple(contestant.parts), np.array(runs))
-        for contestant, runs in zip(contestants, zip(*cycles_of_runs, strict=True), strict=True)
-    }
+    for one in contestants:
+        _timed_run(one, clock)
+    runs = {one.name: [] for one in contestants}
+    for order in itertools.islice(itertools.cycle(itertools.permutations(contestants)), cycles):
+        for one in order:
+            runs[one.name].append(_timed_run(one, clock))
+    return {one.name: Timing(tuple(one.parts), np.array(runs[one.name])) for one in contestants}
 
 
 def one_after_another(contestant: Contestant) -> Callable[[], None]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`cost`: what accuracy costs in time on this machine, and what a budget buys."""
 
+import contextlib
 import csv
 import io
 import time
@@ -21,7 +22,6 @@ from .knobs.registry import KNOBS
 from .ladders import Ladder
 from .pictures import Pictures
 from .prediction import Prediction
-from .steady import SteadyPrices
 
 NAME = "cost"
 HELP = "Measure what accuracy costs in time on this machine, and what a budget buys."
@@ -121,8 +121,11 @@ def run(options) -> None:
 
 def _measured_model(with_blender):
     """The prices of this machine."""
-    if not with_blender:
-        return probe()
+    return _costing().measure_machine() if with_blender else probe()
+
+
+def _costing():
+    """What measures in Blender, with the extension registered."""
     import bpy
 
     from ... import register
@@ -130,7 +133,14 @@ def _measured_model(with_blender):
 
     if not hasattr(bpy.types.Object, "ocean_lod"):
         register()
-    return costing.measure_machine()
+    return costing
+
+
+@contextlib.contextmanager
+def _price_finder(with_blender, contraction=None):
+    """A function that finds prices anew, by cases that are built once."""
+    with _costing().price_cases() if with_blender else contextlib.nullcontext(numpy_cases(contraction)) as cases:
+        yield lambda: CostModel(measured_prices(cases))
 
 
 def _measure(options, output, with_blender):
@@ -138,14 +148,17 @@ def _measure(options, output, with_blender):
     machine = this_machine(with_blender)
     rounds = 5 if options.full else 3
     print(f"{machine}; matrix products by {fastest_contraction()}", flush=True)
-    prices = SteadyPrices(lambda: _measured_model(with_blender))
-    model, probe_seconds = prices.model, prices.seconds_to_find
+    probe_started = time.perf_counter()
+    model = _measured_model(with_blender)
+    probe_seconds = time.perf_counter() - probe_started
     _print(f"Prices, found in {probe_seconds:.1f} s", report.price_lines(model.prices))
 
-    whole = configurations.measure_configurations(model, rounds, with_blender)
-    tried = [budgets.try_budget(prices, budget, with_blender) for budget in budgets.BUDGETS]
-    _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
-    predictions, without_blas = _try_predictions(options, prices, with_blender)
+    with _price_finder(with_blender) as find:
+        whole = configurations.measure_configurations(find, rounds, with_blender)
+        tried = [budgets.try_budget(find, budget, with_blender) for budget in budgets.BUDGETS]
+        _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
+        predictions = _try_predictions(find, None, with_blender) if options.full else None
+    without_blas = _try_without_blas(options.contraction or "einsum") if options.full else None
 
     measured = []
     for knob in KNOBS:
@@ -178,19 +191,18 @@ def _measure(options, output, with_blender):
     )
 
 
-def _try_predictions(options, prices, with_blender):
-    """Predictions beside times, through Blender and by a contraction in NumPy alone; (None, None) if quick."""
-    if not options.full:
-        return None, None
-    predictions = prediction.try_model(prices, None, with_blender)
+def _try_predictions(find, contraction, with_blender):
+    """Predictions beside times, through Blender or by NumPy alone."""
+    predictions = prediction.try_model(find, contraction, with_blender)
     where = "through Blender" if with_blender else "without Blender"
-    _print(f"Predictions, {where}, by {fastest_contraction()}", report.prediction_lines(predictions))
-    contraction = options.contraction or "einsum"
-    cases = numpy_cases(contraction)
-    alone = SteadyPrices(lambda: CostModel(measured_prices(cases)), contraction)
-    without_blas = prediction.try_model(alone, contraction, False)
-    _print(f"Predictions without Blender, by {contraction}", report.prediction_lines(without_blas))
-    return predictions, without_blas
+    by = contraction or fastest_contraction()
+    _print(f"Predictions {where}, by {by}", report.prediction_lines(predictions))
+    return predictions
+
+
+def _try_without_blas(contraction):
+    with _price_finder(False, contraction) as find:
+        return _try_predictions(find, contraction, False)
 
 
 def _print(title, lines):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whole configurations from Draft to Reference: what each gets wrong, and what its frames take."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from ...core.cost.model import CostModel
@@ -64,13 +65,16 @@ def settings_of_quality(name: str):
     return apply(QUALITIES[name], SIZED)
 
 
-def measure_configurations(model: CostModel, rounds: int, with_blender: bool) -> list[ConfigurationResult]:
-    """All qualities, without their pictures."""
-    return [_measure(name, quality, model, rounds, with_blender) for name, quality in QUALITIES.items()]
+def measure_configurations(
+    find: Callable[[], CostModel], rounds: int, with_blender: bool
+) -> list[ConfigurationResult]:
+    """All qualities, without their pictures; prices are found anew for each by `find`."""
+    return [_measure(name, quality, find, rounds, with_blender) for name, quality in QUALITIES.items()]
 
 
-def _measure(name, quality, model, rounds, with_blender):
+def _measure(name, quality, find, rounds, with_blender):
     settings = apply(quality, SIZED)
+    predicted = find().total(frames.work(settings))
     measured = _seconds(settings, rounds, with_blender)
     return ConfigurationResult(
         name,
@@ -83,7 +87,7 @@ def _measure(name, quality, model, rounds, with_blender):
         quality.instants,
         height_error(quality),
         _ripples_wrong(quality),
-        1e3 * model.total(frames.work(settings)),
+        1e3 * predicted,
         1e3 * measured,
         None,
     )

@@ -1,8 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The cost model tried on configurations that it was not calibrated with."""
+"""The cost model tried on configurations that it was not calibrated with.
 
+A processor that grows warm or is shared with others changes its pace within seconds. What a prediction is worth
+shows only beside times that were measured when its prices were: so both are done in turns, and the turn in the
+middle counts.
+"""
+
+import time
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from ...core.cost.model import CostModel
+from ...core.cost.probe import typical
 from ...core.foam_settings import Foam
 from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
@@ -10,7 +19,6 @@ from ...core.sea import Sea
 from ..bench import in_blender
 from ..bench.timing import one_after_another
 from . import frames
-from .steady import SteadyPrices
 
 LIMIT = 0.20
 """A prediction is right within this share of the measured time."""
@@ -47,6 +55,13 @@ CASES = (
 """(Plane, waves, ripples, instants of foam): 38 k to 827 k vertices."""
 
 
+_TURNS = 3
+"""So often prices are found, and a configuration is measured with them."""
+
+_FRAMES, _SECONDS = 5, 0.3
+"""Frames that are measured in a turn, and seconds that they take together, at least."""
+
+
 @dataclass(frozen=True)
 class Prediction:
     """A configuration, and predicted and measured seconds of its frame."""
@@ -70,24 +85,45 @@ class Prediction:
         }
 
 
-def try_model(prices: SteadyPrices, contraction: str | None, with_blender: bool) -> list[Prediction]:
-    """Predictions beside times: of whole frames through Blender, or of what NumPy does in them."""
-    return [_try_case(prices, contraction, with_blender, *case) for case in CASES]
+def try_model(find: Callable[[], CostModel], contraction: str | None, with_blender: bool) -> list[Prediction]:
+    """Predictions beside times: of whole frames through Blender, or of what NumPy does in them.
+
+    `find` finds the prices of this machine anew.
+    """
+    return [_try_case(find, contraction, with_blender, *case) for case in CASES]
 
 
-def _try_case(prices, contraction, with_blender, grid, waves, ripples, instants):
+def _try_case(find, contraction, with_blender, grid, waves, ripples, instants):
     settings = frames.settings_of(Sea(wave_count=waves), grid, ripples, Foam(memory_steps=instants))
     name = f"{grid.vertex_count} vertices, {waves} waves, ripples {_text(ripples)}, foam {instants}"
+    print(f"    {name}", flush=True)
+    work = frames.work(settings)
 
-    def timed(ocean):
-        print(f"    {name}", flush=True)
-        measured = prices.typical_seconds(one_after_another(ocean.contestant(name)))
-        return Prediction(name, prices.model.total(frames.work(settings)), measured)
+    def in_turns(ocean):
+        run = one_after_another(ocean.contestant(name))
+        run()  # the first frame writes what is static
+        return middle(Prediction(name, find().total(work), _frame_seconds(run)) for _ in range(_TURNS))
 
     if not with_blender:
-        return timed(frames.NumpyFrame(settings, contraction))
+        return in_turns(frames.NumpyFrame(settings, contraction))
     with in_blender.fresh_data():
-        return timed(frames.BlenderOcean.of(settings))
+        return in_turns(frames.BlenderOcean.of(settings))
+
+
+def middle(predictions: Iterable[Prediction]) -> Prediction:
+    """The one of an odd number that as many exceed as fall short of."""
+    in_order = sorted(predictions, key=lambda one: one.off_by)
+    return in_order[len(in_order) // 2]
+
+
+def _frame_seconds(run):
+    """What a frame takes, reckoned as the probe does it."""
+    taken = []
+    while len(taken) < _FRAMES or sum(taken) < _SECONDS:
+        start = time.perf_counter()
+        run()
+        taken.append(time.perf_counter() - start)
+    return typical(taken)
 
 
 def _text(ripples):

@@ -37,8 +37,7 @@ _GRID = Grid(cells=64, levels=8)
 """Small: what an effect that is off still took would show beside it."""
 
 QUICK = Extent(_GRID, 80, (Picture("CYCLES", (96, 54), 4, renders=5),))
-FULL = Extent(_GRID, 240, (Picture("CYCLES", (96, 54), 4, renders=15), Picture("EEVEE", (64, 36), 1, renders=2)))
-"""EEVEE may have to do without a graphics processor, and compiles its shaders for every picture."""
+FULL = Extent(_GRID, 240, (Picture("CYCLES", (96, 54), 4, renders=30), Picture("EEVEE", (96, 54), 1, renders=30)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +98,7 @@ def add_arguments(parser) -> None:
     parser.add_argument(
         "--full",
         action="store_true",
-        help="more of each, and pictures in EEVEE: ten minutes (default: two)",
+        help="more of each, and pictures in EEVEE: a quarter of an hour (default: two minutes)",
     )
     parser.add_argument(
         "--only", choices=NAMES, nargs="+", default=NAMES, metavar="EFFECT", help=f"of {', '.join(NAMES)} (all)"

@@ -115,10 +115,16 @@ class EffectOcean:
 
 
 def _light(scene):
-    """A sun and a grey sky: the physical sky takes longer to prepare than all of the picture."""
+    """A sun without shadows and a grey sky: what all effects have in common shall not hide what one of them takes.
+
+    A physical sky takes longer to prepare than all of the picture, and so do, for EEVEE without a graphics
+    processor, the maps of shadows and a sharp image of the sky.
+    """
     import bpy
 
     scene.world = bpy.data.worlds.new("Grey")
+    scene.world.probe_resolution = "128"
+    scene.eevee.use_shadows = False
     sun = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
     sun.rotation_euler = (math.radians(60.0), 0.0, math.radians(-90.0))
     scene.collection.objects.link(sun)
