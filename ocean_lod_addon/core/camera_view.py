@@ -4,6 +4,8 @@
 All coordinates are the ocean's own: metres, z up, the mean water level at z = 0.
 """
 
+import functools
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,17 +67,17 @@ def visible_tiles(
     `carried.highest` up and down and `carried.orbit_ratio` times that sideways. With a finite `curved_radius` (m)
     the sea sinks with distance.
     """
-    centre, half = _boxes(grid, anchors)
+    boxes, level = _boxes(grid)
     n, offset = planes[:, :3].T, planes[:, 3]
     ellipsoid = np.hypot(carried.orbit_ratio * np.hypot(n[0], n[1]), n[2])
-    inwards = np.column_stack([centre, half, carried.shift, carried.highest]) @ np.vstack(
-        [n[:2], np.abs(n[:2]), n, ellipsoid]
-    )
+    inwards = boxes @ np.vstack([n[:2], np.abs(n[:2])]) + (anchors @ n[:2] + offset)[level]
+    inwards += carried.shift @ n
+    inwards += carried.highest[:, None] * ellipsoid
     if np.isfinite(curved_radius):
-        furthest = np.abs(centre - anchors[0]) + half
+        furthest = np.abs(boxes[:, :2] + (anchors - anchors[0])[level]) + boxes[:, 2:]
         drop = (furthest**2).sum(axis=1) / (2.0 * curved_radius)
-        inwards += np.outer(drop, np.maximum(-n[2], 0.0))
-    return (inwards >= -offset).all(axis=1)
+        inwards += drop[:, None] * np.maximum(-n[2], 0.0)
+    return (inwards >= 0.0).all(axis=1)
 
 
 def looks_down(view: CameraView, margin: float, highest: float) -> bool:
@@ -93,14 +95,18 @@ def looks_down(view: CameraView, margin: float, highest: float) -> bool:
     return any(corner[2] < 0.0 for corner in corners)
 
 
-def _boxes(grid, anchors):
-    """Boxes around all tiles, undisturbed, and the cells that join them to others: centres and half sides, m."""
+@functools.lru_cache(maxsize=8)
+def _boxes(grid):
+    """Boxes around all tiles, undisturbed, and the cells that join them to others.
+
+    Centres (x, y) from the level's anchor and half sides, (tiles, 4) m, and the levels of the tiles.
+    """
     table = tile_table(grid.cells, grid.levels)
     spacing = grid.cell_size * np.exp2(table.level)[:, None]
     first = np.stack([table.row_start, table.column_start], axis=-1)
     last = np.stack([table.row_stop, table.column_stop], axis=-1) - 1
-    centre = (0.5 * (first + last) - grid.cells // 2) * spacing + anchors[table.level]
-    return centre, (0.5 * (last - first) + RIM) * spacing
+    centre = (0.5 * (first + last) - grid.cells // 2) * spacing
+    return np.hstack([centre, (0.5 * (last - first) + RIM) * spacing]), table.level
 
 
 def nearest_visible_water(view: CameraView) -> np.ndarray:
@@ -109,39 +115,57 @@ def nearest_visible_water(view: CameraView) -> np.ndarray:
     Below the camera itself if that is in the frame, if the camera is under water or if it sees no water at all.
     """
     below = view.position[:2].astype(np.float64)
-    height = view.position[2]
-    planes = frame_planes(view)
-    ground = np.array([*below, 0.0, 1.0])
-    if height <= 0.0 or (planes @ ground >= 0.0).all():
+    if view.position[2] <= 0.0 or _sees_below(view):
         return below
-    origins, directions = _frame_rays(view)
-    sinking = directions[:, 2] < -_GRAZING
-    if not sinking.any():
+    ahead = _border_on_water(view)
+    if not len(ahead):
         return below
-    origins, directions = origins[sinking], directions[sinking]
-    hits = origins[:, :2] - origins[:, 2:] / directions[:, 2:] * directions[:, :2]
-    return hits[np.argmin(((hits - below) ** 2).sum(axis=1))]
+    return below + ahead[np.argmin((ahead**2).sum(axis=1))]
+
+
+def _sees_below(view):
+    """Whether the point of the mean water level below a camera that is above it is in its frame."""
+    left, right, bottom, top = view.extent
+    x, y, forward = (-view.position[2] * view.axes[:, 2]).tolist()
+    if view.kind == "PANO":
+        return True
+    if view.kind == "PERSP":
+        left, right, bottom, top = (edge * forward for edge in view.extent)
+        if forward < 0.0:
+            return False
+    return left <= x <= right and bottom <= y <= top
 
 
 _GRAZING = 1e-6
 """Rays that sink less than this never reach the water."""
 
 _EDGE = np.linspace(0.0, 1.0, 9)
-_ALONG_FRAME = np.concatenate([_EDGE, _EDGE, np.zeros(9), np.ones(9)])
-_UP_FRAME = np.concatenate([np.zeros(9), np.ones(9), _EDGE, _EDGE])
-"""Places of rays along the four edges of the frame, as shares of its width and height."""
+_BORDER = np.column_stack(
+    [
+        np.concatenate([_EDGE, _EDGE, np.zeros(9), np.ones(9)]),
+        np.concatenate([np.zeros(9), np.ones(9), _EDGE, _EDGE]),
+        np.ones(36),
+    ]
+)
+"""Places along the four edges of the frame, as shares of its width and height, and 1."""
 
 
-def _frame_rays(view):
-    """Rays along the border of the frame: origins and directions, (rays, 3) each."""
+def _border_on_water(view):
+    """Where rays through the border of the frame meet the mean water level, (hits, 2) m from below the camera."""
     left, right, bottom, top = view.extent
-    x = left + (right - left) * _ALONG_FRAME
-    y = bottom + (top - bottom) * _UP_FRAME
-    across = x[:, None] * view.axes[0] + y[:, None] * view.axes[1]
-    forward = np.broadcast_to(view.axes[2], across.shape)
+    across, up, forward = view.axes
+    corner = left * across + bottom * up
+    frame = np.array([(right - left) * across, (top - bottom) * up, corner])
+    height = view.position[2]
     if view.kind == "ORTHO":
-        return view.position + across, forward
-    return np.broadcast_to(view.position, across.shape), forward + across
+        origins = _BORDER @ frame
+        if forward[2] >= -_GRAZING:
+            return np.empty((0, 2))
+        return origins[:, :2] - np.outer((height + origins[:, 2]) / forward[2], forward[:2])
+    frame[2] += forward
+    rays = _BORDER @ frame
+    rays = rays[rays[:, 2] < -_GRAZING]
+    return rays[:, :2] * (height / -rays[:, 2:])
 
 
 def plane_centre(grid: Grid, view: CameraView) -> np.ndarray:
@@ -152,7 +176,7 @@ def plane_centre(grid: Grid, view: CameraView) -> np.ndarray:
     """
     below = view.position[:2].astype(np.float64)
     ahead = nearest_visible_water(view) - below
-    distance = np.hypot(*ahead)
+    distance = math.hypot(*ahead)
     finest_level = 0.5 * grid.spacing(0) * grid.cells / 2
     if distance <= finest_level:
         return below

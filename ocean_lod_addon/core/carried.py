@@ -15,7 +15,7 @@ import numpy as np
 
 from .lod import Grid, tile_table
 from .waves import WaveSet
-from .windows import FADE_START, window_reach
+from .windows import FADE_START, window_levels, window_reach
 
 _HIGHEST_WAVE = 1.25
 """Bound on a crest over the significant height. In a Gaussian sea exp(-8 r^2), four in a million, exceed it."""
@@ -38,19 +38,35 @@ class Carried:
 
 
 @dataclass(frozen=True, eq=False)
-class _LevelTiles:
-    """Where the tiles of a level are, in cells from its anchor: they stand in rows and columns.
+class _Carriers:
+    """What does not change with time: the waves that carry the tiles of each level where there are such waves.
 
-    here     which tiles these are
-    radius   from the centre of the largest to the corner of what belongs to it
-    centres  of the rows, and of the columns
-    places   of each tile: its row, and its column
+    wave_vectors  (2, waves) rad/m, of all waves
+    levels        from the innermost on
+    highest       as in `Carried`
+    """
+
+    wave_vectors: np.ndarray
+    levels: tuple["_LevelCarriers", ...]
+    highest: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class _LevelCarriers:
+    """Tiles stand in rows and columns, along which phases separate as in core.kernel: the factors of a product.
+
+    here    which tiles these are
+    waves   those that carry all of them, by number
+    along   (rows, waves) complex64, from the level's anchor to the centres of rows
+    across  (2 waves, 3 columns) float32, on to those of columns, for x, y and z
+    places  of each tile, the row times the number of columns plus the column
     """
 
     here: slice
-    radius: float
-    centres: tuple[np.ndarray, np.ndarray]
-    places: tuple[np.ndarray, np.ndarray]
+    waves: np.ndarray
+    along: np.ndarray
+    across: np.ndarray
+    places: np.ndarray
 
 
 def highest_wave(waves: WaveSet) -> float:
@@ -66,22 +82,16 @@ def carried_at_any_time(grid: Grid, waves: WaveSet) -> Carried:
 
 
 def carried(grid: Grid, anchors: np.ndarray, waves: WaveSet, time: float) -> Carried:
-    """Where the tiles of a plane at level anchors (levels, 2) m are at a `time` in s."""
-    result = carried_at_any_time(grid, waves)
-    anywhere = result.highest.max()
-    phases, k = waves.phase_at(time), waves.wavenumber
-    heading = np.stack([np.cos(waves.direction), np.sin(waves.direction)])
-    reach = window_reach(grid, waves.wavelength) * FADE_START
-    for level, tiles in enumerate(_levels(grid.cells, grid.levels)):
-        radius = tiles.radius * grid.spacing(level)
-        carries = (k * radius < _MOST_TURN) & (reach >= _furthest(grid, anchors, level))
-        if radius > anywhere or not carries.any():
-            break  # tiles of coarser levels are larger yet: waves hardly change which of them are seen
-        at_anchor = np.mod(phases + anchors[level] @ (k * heading), 2.0 * np.pi)
-        result.shift[tiles.here] = _displacement(tiles, grid.spacing(level), waves, heading, at_anchor, carries)
-        unknown = np.where(carries, 1.0 - np.cos(k * radius), 0.5)
-        result.highest[tiles.here] = _bound(np.sum(unknown * waves.amplitude**2))
-    return result
+    """Where the tiles of a plane at level anchors (levels, 2) m, of lod.level_anchors, are at a `time` in s."""
+    carriers = _carriers(grid, waves)
+    shift = np.zeros((len(carriers.highest), 3))
+    if carriers.levels:
+        at_anchors = waves.phase_at(time) + anchors[: len(carriers.levels)] @ carriers.wave_vectors
+        phasors = waves.amplitude.astype(np.float32) * _phasors(np.mod(at_anchors, 2.0 * np.pi))
+        for level, phasor in zip(carriers.levels, phasors, strict=True):
+            centres = (level.along * phasor[level.waves]).view(np.float32) @ level.across
+            shift[level.here] = centres.reshape(-1, 3)[level.places]
+    return Carried(shift, carriers.highest, float(waves.orbit_ratio.max(initial=0.0)))
 
 
 def _bound(variance):
@@ -89,38 +99,55 @@ def _bound(variance):
     return _HIGHEST_WAVE * 4.0 * np.sqrt(variance)
 
 
-@functools.lru_cache(maxsize=32)
-def _levels(cells, levels):
-    table, result = tile_table(cells, levels), []
-    ends = np.searchsorted(table.level, np.arange(levels + 1)).tolist()
-    for here in itertools.starmap(slice, itertools.pairwise(ends)):
-        halves, centres, places = [], [], []
-        for first, past in ((table.row_start, table.row_stop), (table.column_start, table.column_stop)):
-            halves.append(0.5 * (past - first - 1)[here].max() + RIM)
-            twice, place = np.unique((first + past - 1)[here], return_inverse=True)
-            centres.append(0.5 * twice - cells // 2)
-            places.append(place)
-        result.append(_LevelTiles(here, float(np.hypot(*halves)), tuple(centres), tuple(places)))
-    return tuple(result)
+@functools.lru_cache(maxsize=8)
+def _carriers(grid, waves):
+    heading = np.stack([np.cos(waves.direction), np.sin(waves.direction)])
+    highest = carried_at_any_time(grid, waves).highest
+    levels, anywhere = [], highest.max()
+    table = tile_table(grid.cells, grid.levels)
+    ends = np.searchsorted(table.level, np.arange(grid.levels + 1)).tolist()
+    for number, here in enumerate(itertools.starmap(slice, itertools.pairwise(ends))):
+        halves, centres, places = zip(*_rows_and_columns(table, here, grid, number), strict=True)
+        turn = waves.wavenumber * np.hypot(*halves)
+        whole = window_reach(grid, waves.wavelength) * FADE_START >= _furthest(grid, number, waves)
+        carry = whole & (turn < _MOST_TURN)
+        if np.hypot(*halves) > anywhere or not carry.any():
+            break  # tiles of coarser levels are larger yet: waves hardly change which of them are seen
+        unknown = np.where(carry, 1.0 - np.cos(turn), 0.5)
+        highest[here] = _bound(np.sum(unknown * waves.amplitude**2))
+        place = places[0] * len(centres[1]) + places[1]
+        factors = _factors(waves, heading, carry, *centres)
+        levels.append(_LevelCarriers(here, np.flatnonzero(carry), *factors, place))
+    return _Carriers(waves.wavenumber * heading, tuple(levels), highest)
 
 
-def _furthest(grid, anchors, level):
-    """The furthest that a line of a level is from the centre of any wave's window, m."""
-    return grid.spacing(level) * (0.5 * grid.cells + RIM) + np.abs(anchors - anchors[level]).max()
+def _rows_and_columns(table, here, grid, level):
+    """Of a level's tiles, along either axis: half the length of the longest with its rim, the centres that there
+    are, from the level's anchor, both in m, and the number of that of each tile."""
+    spacing = grid.spacing(level)
+    for first, past in ((table.row_start, table.row_stop), (table.column_start, table.column_stop)):
+        half = 0.5 * (past - first - 1)[here].max() + RIM
+        twice, place = np.unique((first + past - 1)[here], return_inverse=True)
+        yield half * spacing, (0.5 * twice - grid.cells // 2) * spacing, place
 
 
-def _displacement(tiles, spacing, waves, heading, phases, chosen):
-    """The chosen waves' sum (corrected Eq. 2) at the centres of a level's tiles, (tiles here, 3) m.
+def _factors(waves, heading, carry, rows, columns):
+    """`along` and `across` of `_LevelCarriers`, by corrected Eq. 2."""
+    C, (x, y) = waves.orbit_ratio[carry], heading[:, carry]
+    k = waves.wavenumber[carry]
+    along, across = _phasors(np.outer(rows, k * x)), _phasors(np.outer(k * y, columns))
+    weights = np.stack([1j * C * x, 1j * C * y, np.ones_like(C)], axis=-1)
+    weighted = (across[:, :, None] * weights[:, None, :]).astype(np.complex64)  # (waves, columns, 3)
+    return along, np.stack([weighted.real, -weighted.imag], axis=1).reshape(2 * len(k), -1)
 
-    `phases` are those at the level's anchor. Along rows and columns the phase separates as it does in core.kernel.
+
+def _furthest(grid, level, waves):
+    """The furthest that a line of a level may be from the centre of each wave's window, m.
+
+    Anchors (lod.level_anchors) are half a cell of their level at most from the point that all of them follow.
     """
-    heading, C = heading[:, chosen], waves.orbit_ratio[chosen]
-    along = waves.wavenumber[chosen] * heading * spacing
-    P, Q = (_phasors(np.outer(centres, turn)) for centres, turn in zip(tiles.centres, along, strict=True))
-    P *= waves.amplitude[chosen].astype(np.float32) * _phasors(phases[chosen])
-    weights = (1j * C * heading[0], 1j * C * heading[1], np.ones_like(C))
-    sums = [(P * weight.astype(np.complex64)) @ Q.T for weight in weights]
-    return np.stack([each.real[tiles.places] for each in sums], axis=-1)
+    of_window = grid.cell_size * np.exp2(window_levels(grid, waves.wavelength))
+    return grid.spacing(level) * (0.5 * grid.cells + RIM + 0.5) + 0.5 * of_window
 
 
 def _phasors(phases):

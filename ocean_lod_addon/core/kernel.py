@@ -58,6 +58,20 @@ class _StillWater:
     anchors: np.ndarray
 
 
+class _LastProducts:
+    """Products into one array: those of the last view, and all that were made so far, by their runs of tiles.
+
+    What a camera sees changes at the rim of its frame, from frame to frame; most products stay.
+    """
+
+    def __init__(self, out):
+        self.out, self.view, self.products = out, None, []
+        self.made: dict[tuple, Product | MirroredProduct] = {}
+
+
+_MOST_KEPT = 2048
+"""Products; some views later they are made anew."""
+
 _NO_ROW = 1 << 30
 """Past all rows."""
 
@@ -161,17 +175,21 @@ class FrameKernel:
         Made once for an array and a view that stay the same from frame to frame.
         """
         view = None if visible is None else visible.tobytes(), wave_limit
-        last_out, last_view, products = self._last_products.get(block, (None, None, []))
-        if last_out is out and last_view == view:
-            return products
+        last = self._last_products.get(block)
+        if last is None or last.out is not out or len(last.made) > _MOST_KEPT:
+            last = self._last_products[block] = _LastProducts(out)
+        elif last.view == view:
+            return last.products
         most = len(self._waves) if wave_limit is None else wave_limit
         flags = np.ones(len(self._tiles), bool) if visible is None else visible
         units = self._mirrored_tiles if self._levels[0].right(block).mirrored else self._plain_tiles
         kinds, counts = units.needs(flags, np.minimum(self._wave_counts, most))
         runs = _runs(units.follows, kinds, counts)
-        products = [units.product(self._levels, out, block, *run) for run in runs]
-        self._last_products[block] = (out, view, products)
-        return products
+        for run in runs:
+            if run not in last.made:
+                last.made[run] = units.product(self._levels, out, block, *run)
+        last.view, last.products = view, [last.made[run] for run in runs]
+        return last.products
 
     def _still_products(self, reused, block, anchors, visible):
         """The products that put still water where it is wanted and not yet there."""
@@ -183,6 +201,8 @@ class FrameKernel:
                 moved[:] |= moved[0]
             missing &= ~reused.still.flags | moved[self._table.level]
         reused.still = _StillWater(self._identity, flat, anchors.copy())
+        if not missing.any():
+            return []
         runs = _runs(self._follows, missing, np.zeros(len(missing), int))
         return [self._still_product(reused.array, block, self._tiles[a], self._tiles[b]) for a, b, _, _ in runs]
 
