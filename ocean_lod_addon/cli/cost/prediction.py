@@ -55,7 +55,7 @@ CASES = (
 """(Plane, waves, ripples, instants of foam): 38 k to 827 k vertices."""
 
 
-_TURNS = 3
+_TURNS = 5
 """So often prices are found, and a configuration is measured with them."""
 
 _FRAMES, _SECONDS = 5, 0.3
