@@ -100,6 +100,14 @@ def test_a_prediction_is_judged_by_the_measured_time():
     assert report.prediction_lines([right, wrong])[-1].endswith("MISS")
 
 
+def test_the_turn_in_the_middle_counts_and_disturbed_ones_are_noticed():
+    off = (("a", 1.5), ("b", 1.0), ("c", 1.1))
+    turns = [prediction.Prediction(name, predicted, 1.0) for name, predicted in off]
+    assert prediction.middle(turns).name == "c"
+    assert not prediction.agree(turns)
+    assert prediction.agree([turns[2], prediction.Prediction("d", 1.15, 1.0)])
+
+
 def test_height_errors_of_the_qualities_fall():
     errors = [configurations.height_error(QUALITIES[name]) for name in ("preview", "standard")]
     assert errors[0] > 1.5 * errors[1] > 0.0  # (4/3)^2 = 1.8
