@@ -36,7 +36,7 @@ def add_arguments(parser) -> None:
         "--quick", action="store_true", help="knobs, configurations and budgets, under a minute (default)"
     )
     extent.add_argument(
-        "--full", action="store_true", help="also predictions tried out and pictures; under ten minutes"
+        "--full", action="store_true", help="also predictions tried out and pictures; about ten minutes"
     )
     parser.add_argument(
         "--contraction",
@@ -146,7 +146,7 @@ def _price_finder(with_blender, contraction=None):
 def _measure(options, output, with_blender):
     started = time.perf_counter()
     machine = this_machine(with_blender)
-    rounds = 5 if options.full else 3
+    rounds, attempts = (5, 3) if options.full else (3, 1)
     print(f"{machine}; matrix products by {fastest_contraction()}", flush=True)
     probe_started = time.perf_counter()
     model = _measured_model(with_blender)
@@ -155,7 +155,7 @@ def _measure(options, output, with_blender):
 
     with _price_finder(with_blender) as find:
         whole = configurations.measure_configurations(find, rounds, with_blender)
-        tried = [budgets.try_budget(find, budget, with_blender) for budget in budgets.BUDGETS]
+        tried = [budgets.try_budget(find, budget, attempts, with_blender) for budget in budgets.BUDGETS]
         _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
         predictions = _try_predictions(find, None, with_blender) if options.full else None
     without_blas = _try_without_blas(options.contraction or "einsum") if options.full else None

@@ -21,9 +21,6 @@ BUDGETS = (5e-3, 20e-3, 100e-3)
 """s"""
 
 FRAMES = 50
-_ATTEMPTS = 3
-"""A choice is made, and its frames are timed, so often; the one in the middle counts."""
-
 LIMIT = 0.10
 """The median may exceed the budget by this share."""
 
@@ -60,10 +57,10 @@ def choose_for(model: CostModel, budget: float) -> Choice:
     return choose(rungs, lambda rung: model.predict(frames.work(apply(rung.quality, SIZED))), budget)
 
 
-def try_budget(find: Callable[[], CostModel], budget: float, with_blender: bool) -> BudgetResult:
-    """Find prices anew by `find`, choose for a budget and time the frames."""
-    results = [_try_choice(choose_for(find(), budget), with_blender) for _ in range(_ATTEMPTS)]
-    return sorted(results, key=lambda result: result.over)[_ATTEMPTS // 2]
+def try_budget(find: Callable[[], CostModel], budget: float, attempts: int, with_blender: bool) -> BudgetResult:
+    """Find prices by `find`, choose for a budget and time the frames; of some attempts the middle one counts."""
+    results = [_try_choice(choose_for(find(), budget), with_blender) for _ in range(attempts)]
+    return sorted(results, key=lambda result: result.over)[attempts // 2]
 
 
 def _try_choice(choice, with_blender):
