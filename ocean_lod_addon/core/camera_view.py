@@ -125,14 +125,13 @@ def nearest_visible_water(view: CameraView) -> np.ndarray:
 
 def _sees_below(view):
     """Whether the point of the mean water level below a camera that is above it is in its frame."""
-    left, right, bottom, top = view.extent
-    x, y, forward = (-view.position[2] * view.axes[:, 2]).tolist()
     if view.kind == "PANO":
         return True
-    if view.kind == "PERSP":
-        left, right, bottom, top = (edge * forward for edge in view.extent)
-        if forward < 0.0:
-            return False
+    x, y, forward = (-view.position[2] * view.axes[:, 2]).tolist()
+    if view.kind == "PERSP" and forward < 0.0:
+        return False
+    distance = forward if view.kind == "PERSP" else 1.0
+    left, right, bottom, top = (edge * distance for edge in view.extent)
     return left <= x <= right and bottom <= y <= top
 
 
@@ -158,9 +157,9 @@ def _border_on_water(view):
     frame = np.array([(right - left) * across, (top - bottom) * up, corner])
     height = view.position[2]
     if view.kind == "ORTHO":
-        origins = _BORDER @ frame
         if forward[2] >= -_GRAZING:
             return np.empty((0, 2))
+        origins = _BORDER @ frame
         return origins[:, :2] - np.outer((height + origins[:, 2]) / forward[2], forward[:2])
     frame[2] += forward
     rays = _BORDER @ frame

@@ -9,13 +9,13 @@ the tile is, and only the rest is left to chance.
 
 import functools
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .lod import Grid, tile_table
 from .waves import WaveSet
-from .windows import FADE_START, window_levels, window_reach
+from .windows import FADE_START, furthest_shift, window_levels, window_reach
 
 _HIGHEST_WAVE = 1.25
 """Bound on a crest over the significant height. In a Gaussian sea exp(-8 r^2), four in a million, exceed it."""
@@ -43,12 +43,12 @@ class _Carriers:
 
     wave_vectors  (2, waves) rad/m, of all waves
     levels        from the innermost on
-    highest       as in `Carried`
+    unmoved       all that is known of the tiles, but for the shift
     """
 
     wave_vectors: np.ndarray
     levels: tuple["_LevelCarriers", ...]
-    highest: np.ndarray
+    unmoved: Carried
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,14 +84,14 @@ def carried_at_any_time(grid: Grid, waves: WaveSet) -> Carried:
 def carried(grid: Grid, anchors: np.ndarray, waves: WaveSet, time: float) -> Carried:
     """Where the tiles of a plane at level anchors (levels, 2) m, of lod.level_anchors, are at a `time` in s."""
     carriers = _carriers(grid, waves)
-    shift = np.zeros((len(carriers.highest), 3))
+    shift = np.zeros_like(carriers.unmoved.shift)
     if carriers.levels:
         at_anchors = waves.phase_at(time) + anchors[: len(carriers.levels)] @ carriers.wave_vectors
         phasors = waves.amplitude.astype(np.float32) * _phasors(np.mod(at_anchors, 2.0 * np.pi))
         for level, phasor in zip(carriers.levels, phasors, strict=True):
             centres = (level.along * phasor[level.waves]).view(np.float32) @ level.across
             shift[level.here] = centres.reshape(-1, 3)[level.places]
-    return Carried(shift, carriers.highest, float(waves.orbit_ratio.max(initial=0.0)))
+    return replace(carriers.unmoved, shift=shift)
 
 
 def _bound(variance):
@@ -102,23 +102,25 @@ def _bound(variance):
 @functools.lru_cache(maxsize=8)
 def _carriers(grid, waves):
     heading = np.stack([np.cos(waves.direction), np.sin(waves.direction)])
-    highest = carried_at_any_time(grid, waves).highest
-    levels, anywhere = [], highest.max()
+    unmoved, levels = carried_at_any_time(grid, waves), []
+    anywhere, wave_levels = unmoved.highest.max(), window_levels(grid, waves.wavelength)
     table = tile_table(grid.cells, grid.levels)
     ends = np.searchsorted(table.level, np.arange(grid.levels + 1)).tolist()
     for number, here in enumerate(itertools.starmap(slice, itertools.pairwise(ends))):
         halves, centres, places = zip(*_rows_and_columns(table, here, grid, number), strict=True)
-        turn = waves.wavenumber * np.hypot(*halves)
-        whole = window_reach(grid, waves.wavelength) * FADE_START >= _furthest(grid, number, waves)
+        radius = np.hypot(*halves)
+        turn = waves.wavenumber * radius
+        furthest = grid.spacing(number) * (0.5 * grid.cells + RIM) + furthest_shift(grid, number, wave_levels)
+        whole = window_reach(grid, waves.wavelength) * FADE_START >= furthest
         carry = whole & (turn < _MOST_TURN)
-        if np.hypot(*halves) > anywhere or not carry.any():
+        if radius > anywhere or not carry.any():
             break  # tiles of coarser levels are larger yet: waves hardly change which of them are seen
         unknown = np.where(carry, 1.0 - np.cos(turn), 0.5)
-        highest[here] = _bound(np.sum(unknown * waves.amplitude**2))
+        unmoved.highest[here] = _bound(np.sum(unknown * waves.amplitude**2))
         place = places[0] * len(centres[1]) + places[1]
         factors = _factors(waves, heading, carry, *centres)
         levels.append(_LevelCarriers(here, np.flatnonzero(carry), *factors, place))
-    return _Carriers(waves.wavenumber * heading, tuple(levels), highest)
+    return _Carriers(waves.wavenumber * heading, tuple(levels), unmoved)
 
 
 def _rows_and_columns(table, here, grid, level):
@@ -139,15 +141,6 @@ def _factors(waves, heading, carry, rows, columns):
     weights = np.stack([1j * C * x, 1j * C * y, np.ones_like(C)], axis=-1)
     weighted = (across[:, :, None] * weights[:, None, :]).astype(np.complex64)  # (waves, columns, 3)
     return along, np.stack([weighted.real, -weighted.imag], axis=1).reshape(2 * len(k), -1)
-
-
-def _furthest(grid, level, waves):
-    """The furthest that a line of a level may be from the centre of each wave's window, m.
-
-    Anchors (lod.level_anchors) are half a cell of their level at most from the point that all of them follow.
-    """
-    of_window = grid.cell_size * np.exp2(window_levels(grid, waves.wavelength))
-    return grid.spacing(level) * (0.5 * grid.cells + RIM + 0.5) + 0.5 * of_window
 
 
 def _phasors(phases):

@@ -23,7 +23,7 @@ from .column_blocks import ColumnBlock, Still
 from .contraction import aligned_matrix
 from .lod import Grid, tile_columns
 from .waves import WaveSet
-from .windows import FADE_START, window, window_levels, window_reach
+from .windows import FADE_START, furthest_shift, window, window_levels, window_reach
 
 
 class Level:
@@ -296,8 +296,7 @@ def _groups(levels_of_waves, fading):
 
 def _fading(grid, number, reach, levels_of_waves):
     """How many of a level's waves, the shortest, have windows that may fall on it below 1, wherever it stands."""
-    shift = 0.5 * grid.spacing(number) + 0.5 * grid.cell_size * np.exp2(levels_of_waves)  # of lod.level_anchors
-    falls = reach * FADE_START < grid.lines(number)[-1] + shift
+    falls = reach * FADE_START < grid.lines(number)[-1] + furthest_shift(grid, number, levels_of_waves)
     return int(np.flatnonzero(falls).max(initial=-1)) + 1
 
 

@@ -176,10 +176,12 @@ class FrameKernel:
         """
         view = None if visible is None else visible.tobytes(), wave_limit
         last = self._last_products.get(block)
-        if last is None or last.out is not out or len(last.made) > _MOST_KEPT:
+        if last is None or last.out is not out:
             last = self._last_products[block] = _LastProducts(out)
         elif last.view == view:
             return last.products
+        elif len(last.made) > _MOST_KEPT:
+            last.made.clear()
         most = len(self._waves) if wave_limit is None else wave_limit
         flags = np.ones(len(self._tiles), bool) if visible is None else visible
         units = self._mirrored_tiles if self._levels[0].right(block).mirrored else self._plain_tiles

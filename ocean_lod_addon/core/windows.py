@@ -34,6 +34,14 @@ def window_levels(grid: Grid, wavelength) -> np.ndarray:
     return np.clip(np.floor(np.log2(finest)), 0, grid.levels - 1).astype(int)
 
 
+def furthest_shift(grid: Grid, level: int, levels_of_windows) -> np.ndarray:
+    """How far a level's anchor may be from those that windows are centred on, along one axis, m.
+
+    Each of them (lod.level_anchors) is half a cell of its own level at most from the point that all follow.
+    """
+    return 0.5 * grid.spacing(level) + 0.5 * grid.cell_size * np.exp2(levels_of_windows)
+
+
 def window(distance, reach, fade_start: float = FADE_START) -> np.ndarray:
     """The window at a distance (>= 0, m) along one axis for a wave of this reach (m); they broadcast.
 

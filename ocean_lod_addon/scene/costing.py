@@ -68,7 +68,7 @@ def measure_machine() -> CostModel:
 def price_cases():
     """What tells the prices of all stages, as `probe.measured_prices` takes it; it is gone after the context."""
     with fresh_data():
-        yield probe.surface_cases() | {"ripples": probe.ripple_cases(_shown_image)} | _blender_cases()
+        yield probe.numpy_cases(show=_shown_image) | _blender_cases()
 
 
 def _shown_image(texels):

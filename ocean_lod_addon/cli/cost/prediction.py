@@ -105,9 +105,13 @@ def _try_case(find, contraction, with_blender, grid, waves, ripples, instants):
     def in_turns(ocean):
         run = one_after_another(ocean.contestant(name))
         run()  # the first frame writes what is static
-        turns = [Prediction(name, find().total(work), _frame_seconds(run)) for _ in range(_TURNS)]
+
+        def turn():
+            return Prediction(name, find().total(work), _frame_seconds(run))
+
+        turns = [turn() for _ in range(_TURNS)]
         if not agree(turns):
-            turns += [Prediction(name, find().total(work), _frame_seconds(run)) for _ in range(_TURNS - 1)]
+            turns += [turn() for _ in range(_TURNS - 1)]
         return middle(turns)
 
     if not with_blender:

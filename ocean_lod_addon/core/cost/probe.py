@@ -89,9 +89,9 @@ def probe(contraction: str | None = None) -> CostModel:
     return CostModel(measured_prices(numpy_cases(contraction)))
 
 
-def numpy_cases(contraction: str | None = None) -> dict[str, list]:
-    """What tells the prices of all that NumPy does by itself."""
-    return surface_cases(contraction) | {"ripples": ripple_cases()}
+def numpy_cases(contraction: str | None = None, show=None) -> dict[str, list]:
+    """What tells the prices of all that NumPy does by itself; `show` as in `ripple_cases`."""
+    return surface_cases(contraction) | {"ripples": ripple_cases(show)}
 
 
 def surface_cases(contraction: str | None = None) -> dict[str, list]:
