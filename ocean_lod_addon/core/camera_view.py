@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .carried import RIM, Carried
-from .lod import Grid, tile_table
+from .lod import Grid, tile_edges, tile_sizes
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,23 +61,30 @@ _WIDEST_HALF_ANGLE = 1.5
 def visible_tiles(
     grid: Grid, anchors: np.ndarray, planes: np.ndarray, carried: Carried, curved_radius: float = np.inf
 ) -> np.ndarray:
-    """Which tiles can be seen, a bool for each: boxes around them that are not wholly outside some plane.
+    """Which tiles can be seen, a flag for each: boxes around them that are not wholly outside some plane.
 
     A vertex stays around its undisturbed place moved by `carried.shift`, within an ellipsoid of the half axes
     `carried.highest` up and down and `carried.orbit_ratio` times that sideways. With a finite `curved_radius` (m)
-    the sea sinks with distance.
+    the sea sinks with distance. A box is a product of sides in x and in y: what they add to n . x + d adds up.
     """
-    boxes, level = _boxes(grid)
-    n, offset = planes[:, :3].T, planes[:, 3]
-    ellipsoid = np.hypot(carried.orbit_ratio * np.hypot(n[0], n[1]), n[2])
-    inwards = boxes @ np.vstack([n[:2], np.abs(n[:2])]) + (anchors @ n[:2] + offset)[level]
-    inwards += carried.shift @ n
-    inwards += carried.highest[:, None] * ellipsoid
+    centres, halves = _sides(grid)  # (levels, tiles)
+    n, offset = planes[:, :3], planes[:, 3]
+    ellipsoid = np.hypot(carried.orbit_ratio * np.hypot(n[:, 0], n[:, 1]), n[:, 2])
+    at_level = n[:, :2] @ anchors.T + offset[:, None] + np.outer(ellipsoid, carried.highest)  # (planes, levels)
+    x, y = (n[:, axis, None, None] * centres + np.abs(n[:, axis, None, None]) * halves for axis in range(2))
     if np.isfinite(curved_radius):
-        furthest = np.abs(boxes[:, :2] + (anchors - anchors[0])[level]) + boxes[:, 2:]
-        drop = (furthest**2).sum(axis=1) / (2.0 * curved_radius)
-        inwards += drop[:, None] * np.maximum(-n[2], 0.0)
-    return (inwards >= 0.0).all(axis=1)
+        off = anchors - anchors[0]
+        upside = np.maximum(-n[:, 2], 0.0)[:, None, None] / (2.0 * curved_radius)
+        x += upside * (np.abs(centres + off[:, :1]) + halves) ** 2
+        y += upside * (np.abs(centres + off[:, 1:]) + halves) ** 2
+    x += at_level[:, :, None]
+    shifts = (n @ carried.shift.reshape(-1, 3).T).reshape(len(n), *carried.shift.shape[:-1])
+    seen = tile_sizes(grid.cells, grid.levels) > 0
+    for x_of_plane, y_of_plane, shift in zip(x, y, shifts, strict=True):
+        inwards = x_of_plane[:, :, None] + y_of_plane[:, None, :]
+        inwards[: len(shift)] += shift
+        seen &= inwards >= 0.0
+    return seen
 
 
 def looks_down(view: CameraView, margin: float, highest: float) -> bool:
@@ -96,17 +103,13 @@ def looks_down(view: CameraView, margin: float, highest: float) -> bool:
 
 
 @functools.lru_cache(maxsize=8)
-def _boxes(grid):
-    """Boxes around all tiles, undisturbed, and the cells that join them to others.
-
-    Centres (x, y) from the level's anchor and half sides, (tiles, 4) m, and the levels of the tiles.
-    """
-    table = tile_table(grid.cells, grid.levels)
-    spacing = grid.cell_size * np.exp2(table.level)[:, None]
-    first = np.stack([table.row_start, table.column_start], axis=-1)
-    last = np.stack([table.row_stop, table.column_stop], axis=-1) - 1
-    centre = (0.5 * (first + last) - grid.cells // 2) * spacing
-    return np.hstack([centre, (0.5 * (last - first) + RIM) * spacing]), table.level
+def _sides(grid):
+    """Along either axis, of tiles with the cells that join them to others: the middles, from the level's anchor,
+    and half the lengths, both (levels, tiles) m."""
+    edges = np.array(tile_edges(grid.cells))
+    first, last = edges[:-1], edges[1:] - 1
+    spacing = grid.cell_size * np.exp2(np.arange(grid.levels))[:, None]
+    return spacing * (0.5 * (first + last) - grid.cells // 2), spacing * (0.5 * (last - first) + RIM)
 
 
 def nearest_visible_water(view: CameraView) -> np.ndarray:

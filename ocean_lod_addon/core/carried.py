@@ -8,12 +8,11 @@ the tile is, and only the rest is left to chance.
 """
 
 import functools
-import itertools
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .lod import Grid, tile_table
+from .lod import Grid, tile_edges
 from .waves import WaveSet
 from .windows import FADE_START, furthest_shift, window_levels, window_reach
 
@@ -29,8 +28,9 @@ RIM = 1.5
 
 @dataclass(frozen=True, eq=False)
 class Carried:
-    """Of each tile: `shift` (tiles, 3) m by waves that carry the whole of it, and a bound on what all others add
-    to that: `highest` (tiles,) m up and down, and `orbit_ratio` times as far sideways."""
+    """Of the tiles: `shift` (levels, tiles in a column, tiles in a row, 3) m by waves that carry the whole of
+    each, for as many of the innermost levels as have such waves, and a bound on what all others add to that:
+    `highest` (levels,) m up and down, and `orbit_ratio` times as far sideways."""
 
     shift: np.ndarray
     highest: np.ndarray
@@ -55,18 +55,14 @@ class _Carriers:
 class _LevelCarriers:
     """Tiles stand in rows and columns, along which phases separate as in core.kernel: the factors of a product.
 
-    here    which tiles these are
-    waves   those that carry all of them, by number
-    along   (rows, waves) complex64, from the level's anchor to the centres of rows
+    waves   those that carry all of the tiles, by number
+    along   (rows, waves) complex64, from the level's anchor to the middles of rows
     across  (2 waves, 3 columns) float32, on to those of columns, for x, y and z
-    places  of each tile, the row times the number of columns plus the column
     """
 
-    here: slice
     waves: np.ndarray
     along: np.ndarray
     across: np.ndarray
-    places: np.ndarray
 
 
 def highest_wave(waves: WaveSet) -> float:
@@ -76,21 +72,20 @@ def highest_wave(waves: WaveSet) -> float:
 
 def carried_at_any_time(grid: Grid, waves: WaveSet) -> Carried:
     """What may be said without a time: every wave anywhere."""
-    tiles = len(tile_table(grid.cells, grid.levels).level)
+    tiles = len(tile_edges(grid.cells)) - 1
     orbit_ratio = float(waves.orbit_ratio.max(initial=0.0))
-    return Carried(np.zeros((tiles, 3)), np.full(tiles, highest_wave(waves)), orbit_ratio)
+    return Carried(np.zeros((0, tiles, tiles, 3)), np.full(grid.levels, highest_wave(waves)), orbit_ratio)
 
 
 def carried(grid: Grid, anchors: np.ndarray, waves: WaveSet, time: float) -> Carried:
     """Where the tiles of a plane at level anchors (levels, 2) m, of lod.level_anchors, are at a `time` in s."""
     carriers = _carriers(grid, waves)
-    shift = np.zeros_like(carriers.unmoved.shift)
+    shift = np.empty((len(carriers.levels), *carriers.unmoved.shift.shape[1:]))
     if carriers.levels:
         at_anchors = waves.phase_at(time) + anchors[: len(carriers.levels)] @ carriers.wave_vectors
         phasors = waves.amplitude.astype(np.float32) * _phasors(np.mod(at_anchors, 2.0 * np.pi))
-        for level, phasor in zip(carriers.levels, phasors, strict=True):
-            centres = (level.along * phasor[level.waves]).view(np.float32) @ level.across
-            shift[level.here] = centres.reshape(-1, 3)[level.places]
+        for level, phasor, shifts in zip(carriers.levels, phasors, shift, strict=True):
+            shifts[:] = ((level.along * phasor[level.waves]).view(np.float32) @ level.across).reshape(shifts.shape)
     return replace(carriers.unmoved, shift=shift)
 
 
@@ -104,40 +99,30 @@ def _carriers(grid, waves):
     heading = np.stack([np.cos(waves.direction), np.sin(waves.direction)])
     unmoved, levels = carried_at_any_time(grid, waves), []
     anywhere, wave_levels = unmoved.highest.max(), window_levels(grid, waves.wavelength)
-    table = tile_table(grid.cells, grid.levels)
-    ends = np.searchsorted(table.level, np.arange(grid.levels + 1)).tolist()
-    for number, here in enumerate(itertools.starmap(slice, itertools.pairwise(ends))):
-        halves, centres, places = zip(*_rows_and_columns(table, here, grid, number), strict=True)
-        radius = np.hypot(*halves)
+    edges = np.array(tile_edges(grid.cells))
+    middles = 0.5 * (edges[:-1] + edges[1:] - 1) - grid.cells // 2
+    half_side = 0.5 * (np.diff(edges).max() - 1) + RIM
+    for number in range(grid.levels):
+        spacing = grid.spacing(number)
+        radius = np.sqrt(2.0) * half_side * spacing
         turn = waves.wavenumber * radius
-        furthest = grid.spacing(number) * (0.5 * grid.cells + RIM) + furthest_shift(grid, number, wave_levels)
+        furthest = spacing * (0.5 * grid.cells + RIM) + furthest_shift(grid, number, wave_levels)
         whole = window_reach(grid, waves.wavelength) * FADE_START >= furthest
         carry = whole & (turn < _MOST_TURN)
         if radius > anywhere or not carry.any():
             break  # tiles of coarser levels are larger yet: waves hardly change which of them are seen
         unknown = np.where(carry, 1.0 - np.cos(turn), 0.5)
-        unmoved.highest[here] = _bound(np.sum(unknown * waves.amplitude**2))
-        place = places[0] * len(centres[1]) + places[1]
-        factors = _factors(waves, heading, carry, *centres)
-        levels.append(_LevelCarriers(here, np.flatnonzero(carry), *factors, place))
+        unmoved.highest[number] = _bound(np.sum(unknown * waves.amplitude**2))
+        factors = _factors(waves, heading, carry, spacing * middles)
+        levels.append(_LevelCarriers(np.flatnonzero(carry), *factors))
     return _Carriers(waves.wavenumber * heading, tuple(levels), unmoved)
 
 
-def _rows_and_columns(table, here, grid, level):
-    """Of a level's tiles, along either axis: half the length of the longest with its rim, the centres that there
-    are, from the level's anchor, both in m, and the number of that of each tile."""
-    spacing = grid.spacing(level)
-    for first, past in ((table.row_start, table.row_stop), (table.column_start, table.column_stop)):
-        half = 0.5 * (past - first - 1)[here].max() + RIM
-        twice, place = np.unique((first + past - 1)[here], return_inverse=True)
-        yield half * spacing, (0.5 * twice - grid.cells // 2) * spacing, place
-
-
-def _factors(waves, heading, carry, rows, columns):
+def _factors(waves, heading, carry, places):
     """`along` and `across` of `_LevelCarriers`, by corrected Eq. 2."""
     C, (x, y) = waves.orbit_ratio[carry], heading[:, carry]
     k = waves.wavenumber[carry]
-    along, across = _phasors(np.outer(rows, k * x)), _phasors(np.outer(k * y, columns))
+    along, across = _phasors(np.outer(places, k * x)), _phasors(np.outer(k * y, places))
     weights = np.stack([1j * C * x, 1j * C * y, np.ones_like(C)], axis=-1)
     weighted = (across[:, :, None] * weights[:, None, :]).astype(np.complex64)  # (waves, columns, 3)
     return along, np.stack([weighted.real, -weighted.imag], axis=1).reshape(2 * len(k), -1)

@@ -36,13 +36,13 @@ class Product:
 
 @dataclass(frozen=True, eq=False)
 class MirroredProduct:
-    """Two products at the price of one, on strips of the plane that mirror each other about its middle line.
+    """Two products at the price of one, on rectangles of the plane that mirror each other about its middle line.
 
         U = left[0] @ right[0],   V = left[1] @ right[1]
-        out = U + V               on the strip, (rows, lines x columns), or None if nobody sees it
-        mirrored = s (U - V)      on its mirror image, (rows, lines, columns), in the order of the strip, or None
+        out = U + V               on the rectangle, (rows, lines x columns), or None if nobody sees it
+        mirrored = s (U - V)      on its mirror image, (rows, lines, columns), in the order of the former, or None
 
-    `signs` are the s of each column, 1 or -1. The strip may begin with the middle line, which has no image.
+    `signs` are the s of each column, 1 or -1. The rectangle may begin with the middle line, which has no image.
     """
 
     left: tuple[np.ndarray, np.ndarray]
@@ -59,10 +59,27 @@ class MirroredProduct:
             for left, right in zip(self.left, self.right, strict=True)
         )
 
-    def rows(self, rows: slice) -> "MirroredProduct":
-        """These rows of it."""
-        cut = [None if array is None else array[rows] for array in (self.out, self.mirrored)]
-        return MirroredProduct(tuple(left[rows] for left in self.left), self.right, self.signs, *cut)
+    @property
+    def lines(self) -> int:
+        """Of the rectangle, along its rows."""
+        return self.right[0].shape[1] // len(self.signs)
+
+    def cut(self, rows: slice, lines: slice) -> "MirroredProduct":
+        """These rows and lines of it."""
+        width = len(self.signs)
+        columns = slice(width * lines.start, width * lines.stop)
+        mirrored = None
+        if self.mirrored is not None:
+            without_image = self.lines - self.mirrored.shape[1]
+            image = slice(max(lines.start - without_image, 0), lines.stop - without_image)
+            mirrored = self.mirrored[rows, image]
+        return MirroredProduct(
+            tuple(left[rows] for left in self.left),
+            tuple(right[:, columns] for right in self.right),
+            self.signs,
+            None if self.out is None else self.out[rows, columns],
+            mirrored,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +102,7 @@ def multiply_without_blas(products) -> None:
     in_threads(_multiply_piece, pieces)
 
 
-_PIECE_ROWS, PIECE_COLUMNS = 128, 1024
+PIECE_ROWS, PIECE_COLUMNS = 128, 1024
 """A piece of a product for one thread, about; milliseconds of work. For each row of `left`, einsum runs through
 all of `right`: shorter runs slow its inner loop, longer ones push the row that they add to out of the cache."""
 
@@ -93,20 +110,26 @@ all of `right`: shorter runs slow its inner loop, longer ones push the row that 
 def _pieces(product):
     """A product cut up; every element is summed in the same order as in the whole."""
     if isinstance(product, MirroredProduct):
-        for across in _even_slices(len(product.left[0]), _PIECE_ROWS):
-            yield product.rows(across)
+        for across in _even_slices(len(product.left[0]), PIECE_ROWS):
+            for along in _even_slices(product.lines, PIECE_COLUMNS // len(product.signs)):
+                yield product.cut(across, along)
         return
     rows, columns = product.out.shape
-    for across in _even_slices(rows, _PIECE_ROWS):
+    for across in _even_slices(rows, PIECE_ROWS):
         for along in _even_slices(columns, PIECE_COLUMNS):
             yield Product(product.left[across], product.right[:, along], product.out[across, along])
 
 
 def _even_slices(length, size):
     """Equal slices of range(length), about `size` long: no remainder is left that is too short to be fast."""
-    count = max(1, round(length / size))
+    count = piece_count(length, size)
     cuts = [length * number // count for number in range(count + 1)]
     return [slice(start, stop) for start, stop in itertools.pairwise(cuts)]
+
+
+def piece_count(length: int, size: int) -> int:
+    """Into how many pieces of about `size` a length is cut."""
+    return max(1, round(length / size))
 
 
 def _multiply_piece(product):

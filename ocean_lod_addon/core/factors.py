@@ -21,9 +21,9 @@ import numpy as np
 
 from .column_blocks import ColumnBlock, Still
 from .contraction import aligned_matrix
-from .lod import Grid, tile_columns
+from .lod import Grid
 from .waves import WaveSet
-from .windows import FADE_START, furthest_shift, window, window_levels, window_reach
+from .windows import FADE_START, fading_waves, first_wave, window, window_levels, window_reach
 
 
 class Level:
@@ -41,14 +41,14 @@ class Level:
         """`order` sorts the waves from short to long."""
         lines = grid.lines(number)
         self.number, self.lines, self.curved = number, lines, curved_earth
-        reach = window_reach(grid, waves.wavelength[order])
-        self.first_wave = int(np.searchsorted(reach, nearest_vertex(grid, number), side="right"))
+        self.first_wave = first_wave(grid, number, waves.wavelength[order])
         self.present = order[self.first_wave :]
         self.wave_count = len(self.present)
         self.waves = waves
-        self.reach = reach[self.first_wave :]
-        self.window_levels = window_levels(grid, waves.wavelength[self.present])
-        self.fading = _fading(grid, number, self.reach, self.window_levels)
+        wavelength = waves.wavelength[self.present]
+        self.reach = window_reach(grid, wavelength)
+        self.window_levels = window_levels(grid, wavelength)
+        self.fading = fading_waves(grid, number, wavelength)
         self.base_rows = 4 if curved_earth else 2
         self.grid = grid
         self._mirrored = mirrored
@@ -71,7 +71,7 @@ class Level:
 
     def mirrored_rows(self, wave_count: int) -> int:
         """Columns of each of `mirrored_lefts` that the `wave_count` longest waves take."""
-        return wave_count + max(self.fading - (self.wave_count - wave_count), 0)
+        return int(mirrored_terms(wave_count, self.wave_count, self.fading))
 
     @property
     def _lefts(self):
@@ -160,17 +160,13 @@ class _Right:
 
 
 class _PlainRight(_Right):
-    """R as it stands in core.kernel, for each strip of tiles by its first line."""
+    """R as it stands in core.kernel."""
 
     mirrored = False
 
     def __init__(self, level, block):
         super().__init__(level, block)
-        rows = 2 * level.wave_count + level.base_rows
-        self.strips = {
-            start: aligned_matrix(rows, block.columns * (stop - start))
-            for start, stop in tile_columns(level.grid.cells)
-        }
+        self.matrix = aligned_matrix(2 * level.wave_count + level.base_rows, self.base.shape[1])
 
     def _put_base(self, base):
         self._put(slice(2 * self._level.wave_count, None), base)
@@ -181,25 +177,19 @@ class _PlainRight(_Right):
 
     def _put(self, rows, values):
         """Values (rows, lines, columns)."""
-        for start, matrix in self.strips.items():
-            stop = start + matrix.shape[1] // self._block.columns
-            matrix[rows] = values[:, start:stop].reshape(len(values), -1)
+        self.matrix[rows] = values.reshape(len(values), -1)
 
 
 class _MirroredRight(_Right):
-    """Those of U and V, for each strip of the upper half by its first line."""
+    """Those of U and V, for the upper half."""
 
     mirrored = True
 
     def __init__(self, level, block):
         super().__init__(level, block)
         self.signs = _signs(self._weights)
-        rows = level.wave_count + level.fading + level.base_rows
-        self.strips = {
-            start: tuple(aligned_matrix(rows, block.columns * (stop - start)) for _ in range(2))
-            for start, stop in tile_columns(level.grid.cells)
-            if start >= level.grid.cells // 2
-        }
+        shape = level.wave_count + level.fading + level.base_rows, block.columns * (len(level.lines) // 2 + 1)
+        self.matrices = aligned_matrix(*shape), aligned_matrix(*shape)
 
     def _put_base(self, base):
         rows = slice(self._level.wave_count + self._level.fading, None)
@@ -226,11 +216,8 @@ class _MirroredRight(_Right):
         return 0.5 * (upper + image), 0.5 * (upper - image)
 
     def _put(self, which, rows, values):
-        """Values (rows, lines of the upper half, columns) into the factors of U (0) or V (1)."""
-        middle = len(self._level.lines) // 2
-        for start, pair in self.strips.items():
-            stop = start + pair[which].shape[1] // self._block.columns
-            pair[which][rows] = values[:, start - middle : stop - middle].reshape(len(values), -1)
+        """Values (rows, lines of the upper half, columns) into the factor of U (0) or V (1)."""
+        self.matrices[which][rows] = values.reshape(len(values), -1)
 
 
 def _signs(weights):
@@ -294,17 +281,6 @@ def _groups(levels_of_waves, fading):
     ]
 
 
-def _fading(grid, number, reach, levels_of_waves):
-    """How many of a level's waves, the shortest, have windows that may fall on it below 1, wherever it stands."""
-    falls = reach * FADE_START < grid.lines(number)[-1] + furthest_shift(grid, number, levels_of_waves)
-    return int(np.flatnonzero(falls).max(initial=-1)) + 1
-
-
-def nearest_vertex(grid: Grid, level: int) -> float:
-    """The least distance from any wave's window centre at which the level owns a vertex, m.
-
-    Centres and anchors differ by half a cell of each, less than a cell of this level where a window matters.
-    """
-    if level == 0:
-        return 0.0
-    return grid.lines(level)[3 * grid.cells // 4 + 1] - grid.spacing(level)
+def mirrored_terms(wave_count, waves, fading):
+    """How many terms the `wave_count` longest of a level's `waves` have in each of U and V; numbers or arrays."""
+    return wave_count + np.maximum(fading - (waves - wave_count), 0)

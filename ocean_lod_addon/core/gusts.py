@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .lod import Grid, tiles
+from .lod import Grid, parts
 from .ripple_settings import Ripples
 from .rng import stream_seed, uniform
 from .roughness import roughening_system
@@ -69,20 +69,18 @@ def gust_factor(
 ) -> np.ndarray:
     """m at each vertex of a plane with these level anchors (levels, 2) at `time` in s, (vertices,) float32.
 
-    n separates on each tile as the sea's waves do: one small matrix product.
+    n separates as the sea's waves do: a small matrix product for each part of a level.
     """
     amplitude = np.sqrt(2.0 / WAVES)
     offset = waves.phase - np.mod(waves.omega * time, TWO_PI)
-    plane = tiles(grid.cells, grid.levels)
-    n = np.empty(plane[-1].vertices.stop, np.float32)
+    n = np.empty(grid.vertex_count, np.float32)
     for level in range(grid.levels):
         x, y = (grid.lines(level) + anchor for anchor in anchors[level])
         px, py = np.multiply.outer(x, waves.kx), np.multiply.outer(waves.ky, y) + offset[:, None]
         left = np.hstack([np.cos(px), -np.sin(px)]).astype(np.float32)
         right = (amplitude * np.vstack([np.cos(py), np.sin(py)])).astype(np.float32)
-        for tile in plane:
-            if tile.level == level:
-                rows, columns = slice(tile.row_start, tile.row_stop), slice(tile.column_start, tile.column_stop)
-                np.matmul(left[rows], right[:, columns], out=n[tile.vertices].reshape(tile.rows, tile.columns))
+        for part in parts(grid.cells, grid.levels):
+            if part.level == level:
+                np.matmul(left[part.rows], right[:, part.columns], out=part.of(n))
     a = ripples.gust_strength
     return np.exp(np.float32(a) * n) / np.float32(np.prod(np.i0(a * np.full(WAVES, amplitude))))

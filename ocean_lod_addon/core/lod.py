@@ -7,13 +7,12 @@ own lattice, shifted as a whole by the level's anchor, so that a plane that foll
 lattice and the surface does not swim. A strip one cell thick joins a level's hole to the finer level's outer
 edge; it alone stretches when the two anchors differ. The topology never depends on the anchors.
 
-Each level is cut into rectangular tiles. A tile is a tensor-product grid of lines, evaluated by one matrix
-product, and a contiguous range of the vertex buffer.
+The vertices of a level lie in the vertex buffer row by row, one x line after the other, without the hole. So every
+rectangle of lines that keeps clear of the hole is an array with a stride, which one matrix product can fill. What
+is in view is told by rectangular tiles, cut along both axes at `tile_edges`.
 """
 
-import dataclasses
 import functools
-import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,7 +69,7 @@ class Grid:
     @property
     def vertex_count(self) -> int:
         """Number of vertices of the whole mesh."""
-        return sum(tile.vertex_count for tile in tiles(self.cells, self.levels))
+        return _level_start(self.cells, self.levels)
 
     def spacing(self, level: int) -> float:
         """Lattice spacing of a level, m."""
@@ -92,10 +91,10 @@ def level_anchors(grid: Grid, centre) -> np.ndarray:
 
 
 @dataclass(frozen=True)
-class Tile:
-    """A rectangle of one level's lines: rows [row_start, row_stop) of x, columns [...) of y.
+class Rectangle:
+    """Some of one level's lines: rows [row_start, row_stop) of x, columns [column_start, column_stop) of y.
 
-    Its vertices are a contiguous range of the vertex buffer from `first_vertex`, row by row.
+    Its vertices are in the vertex buffer from `first_vertex`, each row `stride` vertices after the one before.
     """
 
     level: int
@@ -104,108 +103,120 @@ class Tile:
     column_start: int
     column_stop: int
     first_vertex: int
+    stride: int
 
     @property
-    def rows(self) -> int:
-        """Number of x lines."""
-        return self.row_stop - self.row_start
+    def rows(self) -> slice:
+        """The x lines."""
+        return slice(self.row_start, self.row_stop)
 
     @property
-    def columns(self) -> int:
-        """Number of y lines."""
-        return self.column_stop - self.column_start
+    def columns(self) -> slice:
+        """The y lines."""
+        return slice(self.column_start, self.column_stop)
 
     @property
-    def vertex_count(self) -> int:
-        """Number of vertices."""
-        return self.rows * self.columns
+    def shape(self) -> tuple[int, int]:
+        """Number of x lines and of y lines."""
+        return self.row_stop - self.row_start, self.column_stop - self.column_start
 
-    @property
-    def vertices(self) -> slice:
-        """The tile's range of the vertex buffer."""
-        return slice(self.first_vertex, self.first_vertex + self.vertex_count)
+    def of(self, array: np.ndarray) -> np.ndarray:
+        """The rectangle in a C-contiguous array over all vertices, (rows, columns, ...): a view of it."""
+        step, *rest = array.strides
+        shape, strides = (*self.shape, *array.shape[1:]), (self.stride * step, step, *rest)
+        return np.ndarray(shape, array.dtype, array, self.first_vertex * step, strides)
 
 
-_TILE_ROWS, _TILE_COLUMNS = 16, 64
-"""Lines along a tile's sides, about. Tiles that follow each other in x are evaluated as one product, so short ones
-cost nothing there and leave out the more of what is not in view; strips of them must be wide to be fast."""
+def rectangle(cells: int, level: int, rows: tuple[int, int], columns: tuple[int, int]) -> Rectangle:
+    """The rectangle of the lines from the first to before the second of `rows` and `columns`.
+
+    In rows that the level's hole is in, either all columns are before it or all are after it.
+    """
+    (row_start, row_stop), (column_start, column_stop) = rows, columns
+    side, hole = cells + 1, _hole(cells) if level else range(0)
+    beside = row_start in hole
+    if any(row_start < edge < row_stop for edge in (hole.start, hole.stop)) or (
+        beside and column_stop > hole.start and column_start < hole.stop
+    ):
+        raise ValueError(f"rows {rows}, columns {columns} do not keep clear of the hole of level {level}")
+    rows_of_hole = min(max(row_start - hole.start, 0), len(hole))
+    first_vertex = _level_start(cells, level) + row_start * side - rows_of_hole * len(hole) + column_start
+    if beside and column_start >= hole.stop:
+        first_vertex -= len(hole)
+    stride = side - len(hole) if beside else side
+    return Rectangle(level, row_start, row_stop, column_start, column_stop, first_vertex, stride)
+
+
+def _hole(cells):
+    """The lines in the hole of a level, along either axis."""
+    return range(cells // 4, 3 * cells // 4 + 1)
+
+
+def _level_start(cells, level):
+    """The first vertex of a level; that of the level past the last one is the number of all vertices."""
+    if level == 0:
+        return 0
+    lattice, hole = (cells + 1) ** 2, len(_hole(cells)) ** 2
+    return lattice + (level - 1) * (lattice - hole)
+
+
+@functools.lru_cache(maxsize=32)
+def parts(cells: int, levels: int) -> tuple[Rectangle, ...]:
+    """Rectangles that together own every vertex once: the innermost level, and of others four around the hole."""
+    hole, all_lines = _hole(cells), (0, cells + 1)
+    low, beside, high = (0, hole.start), (hole.start, hole.stop), (hole.stop, cells + 1)
+    around = [(low, all_lines), (beside, low), (beside, high), (high, all_lines)]
+    result = [rectangle(cells, 0, all_lines, all_lines)]
+    result += [rectangle(cells, level, *lines) for level in range(1, levels) for lines in around]
+    return tuple(result)
+
+
+_TILE_LINES = 16
+"""Lines along a tile's sides, about. Tiles that are evaluated are put together to larger rectangles, so small ones
+cost nothing there and leave out the more of what is not in view."""
 
 _MOST_PIECES = 16
 """Of a quarter of a level's lines: the finest planes have tiles enough."""
 
 
-def _tile_edges(cells, size):
-    """Line numbers where tiles begin, and the end; the closed hole [cells/4, 3 cells/4] is a union of tiles.
+@functools.lru_cache(maxsize=32)
+def tile_edges(cells: int) -> tuple[int, ...]:
+    """Line numbers where tiles begin along either axis, and the end; the closed hole [cells/4, 3 cells/4] is a
+    union of tiles.
 
-    They mirror each other about the middle line, which itself belongs to the tile after it.
+    They mirror each other about the middle line, which itself belongs to the tile after it. A quarter of the tiles
+    is before the hole, and a quarter after it.
     """
     middle, quarter = cells // 2, cells // 4
-    pieces = min(max(1, round(quarter / size)), _MOST_PIECES)
+    pieces = min(max(1, round(quarter / _TILE_LINES)), _MOST_PIECES)
     cuts = [quarter * piece // pieces for piece in range(pieces)]
     low = [side * quarter + cut for side in range(2) for cut in cuts]
     high = [cells + 1 - start for start in reversed(low[1:])]
-    return [*low, middle, *high, cells + 1]
+    return (*low, middle, *high, cells + 1)
 
 
 @functools.lru_cache(maxsize=32)
-def tiles(cells: int, levels: int) -> tuple[Tile, ...]:
-    """The tiles of the plane in vertex order, innermost level first; together they own every vertex once.
+def tile_sizes(cells: int, levels: int) -> np.ndarray:
+    """Number of vertices of each tile, (levels, tiles in a column, tiles in a row) int; 0 in the hole of a level.
 
-    Within a level, tiles that follow each other in x do so in the vertex buffer, where their rows make one
-    longer block: neighbours can be evaluated as one product.
+    Arrays over tiles, such as which of them are in view, have this shape.
     """
-    rows = list(itertools.pairwise(_tile_edges(cells, _TILE_ROWS)))
-    hole = range(cells // 4, 3 * cells // 4 + 1)
-    result, first_vertex = [], 0
-    for level in range(levels):
-        for column_start, column_stop in tile_columns(cells):
-            for row_start, row_stop in rows:
-                if level > 0 and row_start in hole and column_start in hole:
-                    continue
-                tile = Tile(level, row_start, row_stop, column_start, column_stop, first_vertex)
-                result.append(tile)
-                first_vertex += tile.vertex_count
-    return tuple(result)
-
-
-def tile_columns(cells: int) -> list[tuple[int, int]]:
-    """The strips that tiles stand in: (first, past the last) of their y lines, in order.
-
-    Each has a mirror image about the middle line, but for that line itself, with which the first of the upper half
-    begins.
-    """
-    return list(itertools.pairwise(_tile_edges(cells, _TILE_COLUMNS)))
-
-
-@dataclass(frozen=True, eq=False)
-class TileTable:
-    """The numbers of all tiles as arrays, (tiles,) int."""
-
-    level: np.ndarray
-    row_start: np.ndarray
-    row_stop: np.ndarray
-    column_start: np.ndarray
-    column_stop: np.ndarray
-    first_vertex: np.ndarray
-
-
-@functools.lru_cache(maxsize=32)
-def tile_table(cells: int, levels: int) -> TileTable:
-    """The tiles of the plane in vertex order, for sums over all of them."""
-    fields = [field.name for field in dataclasses.fields(TileTable)]
-    numbers = [[getattr(tile, field) for field in fields] for tile in tiles(cells, levels)]
-    return TileTable(*np.array(numbers).T)
+    lengths = np.diff(tile_edges(cells))
+    sizes = np.tile(np.outer(lengths, lengths), (levels, 1, 1))
+    quarter = len(lengths) // 4
+    sizes[1:, quarter : 3 * quarter, quarter : 3 * quarter] = 0
+    sizes.flags.writeable = False
+    return sizes
 
 
 def undisturbed_positions(grid: Grid, anchors: np.ndarray) -> np.ndarray:
     """Where the vertices stand in still water, (vertices, 2) float64, m, for level anchors (levels, 2)."""
-    plane = tiles(grid.cells, grid.levels)
-    positions = np.empty((plane[-1].vertices.stop, 2))
-    for tile in plane:
-        x, y = (grid.lines(tile.level) + anchor for anchor in anchors[tile.level])
-        block = positions[tile.vertices].reshape(tile.rows, tile.columns, 2)
-        block[..., 0] = x[tile.row_start : tile.row_stop, None]
-        block[..., 1] = y[None, tile.column_start : tile.column_stop]
+    positions = np.empty((grid.vertex_count, 2))
+    for part in parts(grid.cells, grid.levels):
+        x, y = (grid.lines(part.level) + anchor for anchor in anchors[part.level])
+        block = part.of(positions)
+        block[..., 0] = x[part.rows, None]
+        block[..., 1] = y[None, part.columns]
     return positions
 
 
@@ -220,25 +231,22 @@ class Topology:
 
 def topology(cells: int, levels: int) -> Topology:
     """The faces of the plane. Quads within a level, triangles in the strips that join two levels."""
-    plane = tiles(cells, levels)
-    numbers = _vertex_numbers(cells, levels, plane)
+    count = _level_start(cells, levels)
+    numbers = _vertex_numbers(cells, levels, count)
     quads = [_level_quads(numbers[0], with_hole=False)]
     triangles = [np.empty((0, 3), np.int32)]
     for coarse, fine in zip(numbers[1:], numbers[:-1], strict=True):
         quads.append(_level_quads(coarse, with_hole=True))
         triangles.append(_strip_triangles(coarse, fine))
-    count = plane[-1].vertices.stop
     return Topology(count, np.concatenate(triangles), np.concatenate(quads))
 
 
-def _vertex_numbers(cells, levels, plane):
+def _vertex_numbers(cells, levels, count):
     """Vertex number at each lattice point of each level, (cells + 1)^2 int32; -1 in a level's hole."""
     numbers = [np.full((cells + 1, cells + 1), -1, np.int32) for _ in range(levels)]
-    for tile in plane:
-        block = np.arange(tile.vertices.start, tile.vertices.stop, dtype=np.int32)
-        numbers[tile.level][tile.row_start : tile.row_stop, tile.column_start : tile.column_stop] = (
-            block.reshape(tile.rows, tile.columns)
-        )
+    every = np.arange(count, dtype=np.int32)
+    for part in parts(cells, levels):
+        numbers[part.level][part.rows, part.columns] = part.of(every)
     return numbers
 
 

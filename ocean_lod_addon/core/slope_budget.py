@@ -10,7 +10,7 @@ waves' own tensor is never negative along any direction, and so is what is left 
 import numpy as np
 
 from .errors import OceanError
-from .lod import Grid, tiles
+from .lod import Grid, parts
 from .optics.cox_munk import SLOPE_VARIANCE_FLOOR
 from .optics.trochoid_slopes import mean_square_slope
 from .ripples.spectrum import wind_ripples
@@ -45,24 +45,18 @@ def resolved_sums(grid: Grid, waves: WaveSet, values: np.ndarray) -> np.ndarray:
 
     `values` is (waves, n). For the many small waves of a sea f(e) - f(w e) is f(e) (1 - w^2) (THEORY section 8),
     so a wave's slope variance is shown in this proportion. w_i^2 separates in x and y like the frame kernel, so
-    this is one matrix product a tile, static in time.
+    this is a matrix product for each part of a level, static in time.
     """
     reach = window_reach(grid, waves.wavelength)
-    plane = tiles(grid.cells, grid.levels)
-    columns = values.shape[1]
-    result = np.empty((plane[-1].vertices.stop, columns), np.float32)
+    result = np.empty((grid.vertex_count, values.shape[1]), np.float32)
     for level in range(grid.levels):
         squared = np.square(window(np.abs(grid.lines(level))[:, None], reach))  # (lines, waves)
         present = squared.any(axis=0)
         left = squared[:, present].astype(np.float32)
         right = (squared[:, present].T[:, :, None] * values[present][:, None, :]).astype(np.float32)
-        for tile in plane:
-            if tile.level == level:
-                right_of_tile = right[:, tile.column_start : tile.column_stop]
-                product = left[tile.row_start : tile.row_stop] @ right_of_tile.reshape(
-                    len(right), columns * tile.columns
-                )
-                result[tile.vertices] = product.reshape(tile.vertex_count, columns)
+        for part in parts(grid.cells, grid.levels):
+            if part.level == level:
+                part.of(result)[:] = np.tensordot(left[part.rows], right[:, part.columns], axes=1)
     return result
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .camera_view import CameraView
-from .lod import Grid, tiles
+from .lod import Grid, parts
 from .ocean import Surface
 from .windows import window, window_levels, window_reach
 
@@ -90,10 +90,8 @@ def heights_of_mesh(grid: Grid, anchors: np.ndarray, z: np.ndarray, x, y) -> np.
     """
     side = grid.cells + 1
     lattices = np.full((grid.levels, side, side), np.nan)
-    for tile in tiles(grid.cells, grid.levels):
-        lattices[tile.level, tile.row_start : tile.row_stop, tile.column_start : tile.column_stop] = z[
-            tile.vertices
-        ].reshape(tile.rows, tile.columns)
+    for part in parts(grid.cells, grid.levels):
+        lattices[part.level, part.rows, part.columns] = part.of(np.ascontiguousarray(z))
     heights = np.full(len(x), np.nan)
     for level in reversed(range(grid.levels)):
         u = (x - anchors[level, 0]) / grid.spacing(level) + grid.cells // 2

@@ -42,6 +42,29 @@ def furthest_shift(grid: Grid, level: int, levels_of_windows) -> np.ndarray:
     return 0.5 * grid.spacing(level) + 0.5 * grid.cell_size * np.exp2(levels_of_windows)
 
 
+def nearest_vertex(grid: Grid, level: int) -> float:
+    """The least distance from any wave's window centre at which the level owns a vertex, m.
+
+    Centres and anchors differ by half a cell of each, less than a cell of this level where a window matters.
+    """
+    if level == 0:
+        return 0.0
+    return grid.lines(level)[3 * grid.cells // 4 + 1] - grid.spacing(level)
+
+
+def fading_waves(grid: Grid, level: int, wavelength) -> int:
+    """How many of a level's waves (lengths in m, sorted), the shortest, have windows that may fall on it below 1,
+    wherever it stands."""
+    shift = furthest_shift(grid, level, window_levels(grid, wavelength))
+    falls = window_reach(grid, wavelength) * FADE_START < grid.lines(level)[-1] + shift
+    return int(np.flatnonzero(falls).max(initial=-1)) + 1
+
+
+def first_wave(grid: Grid, level: int, wavelength) -> int:
+    """The first of these waves (lengths in m, sorted) that is not zero everywhere on a level."""
+    return int(np.searchsorted(window_reach(grid, wavelength), nearest_vertex(grid, level), side="right"))
+
+
 def window(distance, reach, fade_start: float = FADE_START) -> np.ndarray:
     """The window at a distance (>= 0, m) along one axis for a wave of this reach (m); they broadcast.
 

@@ -17,11 +17,12 @@ from ocean_lod_addon.core.camera_view import (
 from ocean_lod_addon.core.carried import Carried
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.framing import Framing
-from ocean_lod_addon.core.lod import Grid, level_anchors, tiles
+from ocean_lod_addon.core.lod import Grid, level_anchors, tile_sizes
 from ocean_lod_addon.core.placement import place
 from ocean_lod_addon.core.sea import Sea
 
 from .cameras import camera, projected_inside
+from .plane_tiles import tiles
 
 GRID = Grid(cell_size=0.1, cells=128, levels=9)
 
@@ -33,8 +34,7 @@ def seen(view, margin=0.0, grid=GRID):
 
 def anywhere(height, grid):
     """Waves of this height, wherever they are."""
-    count = len(tiles(grid.cells, grid.levels))
-    return Carried(np.zeros((count, 3)), np.full(count, height), 1.0)
+    return Carried(np.zeros((0, 1, 1, 3)), np.full(grid.levels, height), 1.0)
 
 
 VIEWS = {
@@ -65,8 +65,8 @@ def test_no_visible_water_is_left_out(name, margin):
     view = VIEWS[name]
     visible, anchors = seen(view, margin)
     view = view if view.kind == "ORTHO" else widened(view, margin)
-    for tile, is_seen in zip(tiles(GRID.cells, GRID.levels), visible, strict=True):
-        if is_seen:
+    for number, tile in tiles(GRID):
+        if visible[number]:
             continue
         lines = GRID.lines(tile.level)
         x, y, z = np.meshgrid(
@@ -82,8 +82,8 @@ def test_most_of_the_plane_is_out_of_frame_for_a_normal_lens():
     """35 mm at eye height sees 54 degrees of 360; tiles and margin make it a third of the vertices at most."""
     grid = Grid(cell_size=0.05, cells=512, levels=9)
     visible, _ = seen(VIEWS["standing"], Framing().view_margin, grid)
-    counts = np.array([tile.vertex_count for tile in tiles(grid.cells, grid.levels)])
-    assert counts[visible].sum() < counts.sum() / 3
+    sizes = tile_sizes(grid.cells, grid.levels)
+    assert sizes[visible].sum() < sizes.sum() / 3
 
 
 def test_a_camera_that_looks_up_sees_no_water():
@@ -93,7 +93,7 @@ def test_a_camera_that_looks_up_sees_no_water():
 
 def test_panoramic_cameras_see_everything():
     visible, _ = seen(camera(kind="PANO"))
-    assert visible.all()
+    assert visible[tile_sizes(GRID.cells, GRID.levels) > 0].all()
 
 
 def test_nearest_water_ahead_of_a_level_camera():

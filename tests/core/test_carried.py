@@ -11,11 +11,12 @@ from ocean_lod_addon.core.carried import carried, carried_at_any_time
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.framing import Framing
 from ocean_lod_addon.core.kernel import FrameKernel
-from ocean_lod_addon.core.lod import Grid, level_anchors, tiles, undisturbed_positions
+from ocean_lod_addon.core.lod import Grid, level_anchors, undisturbed_positions
 from ocean_lod_addon.core.placement import place
 from ocean_lod_addon.core.sea import Sea, WaveSystem
 
 from .cameras import camera, projected_inside
+from .plane_tiles import tiles
 
 GRID = Grid(cell_size=0.03, cells=128, levels=9)
 WAVES = discretise(Sea(systems=(WaveSystem(wind_speed=12.0),), wave_count=64), GRID.shortest_wavelength)
@@ -38,10 +39,12 @@ def test_every_vertex_is_where_its_tile_was_carried(moment):
     anchors = level_anchors(GRID, CENTRE)
     there = carried(GRID, anchors, WAVES, moment)
     displacement, _ = displaced(WAVES, anchors, moment)
-    for number, tile in enumerate(tiles(GRID.cells, GRID.levels)):
-        off = displacement[tile.vertices] - there.shift[number]
-        sideways = np.hypot(off[:, 0], off[:, 1]) / there.orbit_ratio
-        assert np.hypot(sideways, off[:, 2]).max() <= there.highest[number]
+    for number, tile in tiles(GRID):
+        off = tile.of(displacement).copy()
+        if tile.level < len(there.shift):
+            off -= there.shift[number]
+        sideways = np.hypot(off[..., 0], off[..., 1]) / there.orbit_ratio
+        assert np.hypot(sideways, off[..., 2]).max() <= there.highest[tile.level]
 
 
 def test_one_long_wave_is_known_exactly_at_the_middle_of_a_tile():
@@ -58,13 +61,12 @@ def test_one_long_wave_is_known_exactly_at_the_middle_of_a_tile():
     there = carried(GRID, anchors, wave, 7.0)
     displacement, _ = displaced(wave, anchors, 7.0)
     odd = [
-        (number, tile)
-        for number, tile in enumerate(tiles(GRID.cells, GRID.levels))
-        if tile.level == 0 and tile.rows % 2 and tile.columns % 2
+        (number, tile) for number, tile in tiles(GRID) if tile.level == 0 and all(side % 2 for side in tile.shape)
     ]
     assert odd
     for number, tile in odd:
-        middle = displacement[tile.vertices].reshape(tile.rows, tile.columns, 3)[tile.rows // 2, tile.columns // 2]
+        rows, columns = tile.shape
+        middle = tile.of(displacement)[rows // 2, columns // 2]
         assert middle == pytest.approx(there.shift[number], abs=4e-6 * wave.amplitude[0])
 
 
@@ -77,8 +79,8 @@ def test_nothing_that_is_in_frame_at_a_moment_is_left_out_and_less_is_seen_than_
         now = place(GRID, Framing(), WAVES, view, True, moment)
         _, positions = displaced(WAVES, now.anchors, moment)
         inside = projected_inside(view, positions.astype(np.float64))
-        for tile, is_seen in zip(tiles(GRID.cells, GRID.levels), now.visible, strict=True):
-            assert is_seen or not inside[tile.vertices].any()
+        for number, tile in tiles(GRID):
+            assert now.visible[number] or not tile.of(inside).any()
         assert not (now.visible & ~always.visible).any()
         fewer += (always.visible & ~now.visible).sum()
     assert fewer > 0
@@ -91,5 +93,5 @@ def test_waves_that_are_lower_than_tiles_are_long_need_not_be_followed():
     planes = np.array([[1.0, 0.0, 0.0, 0.0]])
     now, always = carried(GRID, anchors, ripples, 3.0), carried_at_any_time(GRID, ripples)
     assert (now.highest == always.highest).all()
-    assert not now.shift.any()
+    assert not now.shift.size
     assert (visible_tiles(GRID, anchors, planes, now) == visible_tiles(GRID, anchors, planes, always)).all()

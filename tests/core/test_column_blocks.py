@@ -18,6 +18,8 @@ from ocean_lod_addon.core.sea import Sea, WaveSystem
 from ocean_lod_addon.core.waves import WaveSet
 from ocean_lod_addon.core.windows import window, window_levels, window_reach
 
+from .plane_tiles import no_tile
+
 GRID = Grid(cell_size=0.25, cells=64, levels=6)
 SEA = Sea(systems=(WaveSystem(wind_speed=10.0),), wave_count=96)
 CENTRES = [(0.0, 0.0), (1e5, -1e5)]
@@ -119,7 +121,7 @@ def test_unseen_tiles_are_still_water():
     waves = discretise(SEA, GRID.shortest_wavelength)
     kernel = FrameKernel(GRID, waves)
     anchors = level_anchors(GRID, (0.0, 0.0))
-    nothing = np.zeros(kernel.tile_count, bool)
+    nothing = no_tile(GRID)
     assert not evaluated(kernel, 2.0, anchors, VELOCITY, nothing).any()
     assert (evaluated(kernel, 2.0, anchors, TANGENTS, nothing) == [1.0, 0.0, 1.0, 0.0, 0.0]).all()
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.column_blocks import POSITION, TANGENTS
+from ocean_lod_addon.core.contraction import CONTRACTIONS, _pieces
 from ocean_lod_addon.core.cost import model, probe
 from ocean_lod_addon.core.cost.budget import choose
 from ocean_lod_addon.core.cost.model import STAGES, CostModel, fit_prices
@@ -16,15 +17,18 @@ from ocean_lod_addon.core.cost.quality import QUALITIES, apply, ladder
 from ocean_lod_addon.core.cost.work import Work, work_of
 from ocean_lod_addon.core.discretise import discretise
 from ocean_lod_addon.core.effects import Effects
+from ocean_lod_addon.core.foam.whitecaps import Whitecaps
 from ocean_lod_addon.core.foam_settings import Foam
 from ocean_lod_addon.core.framing import Framing
 from ocean_lod_addon.core.kernel import FrameKernel
-from ocean_lod_addon.core.lod import Grid
+from ocean_lod_addon.core.lod import Grid, tile_sizes
 from ocean_lod_addon.core.material_settings import MaterialSettings
 from ocean_lod_addon.core.ocean import Ocean
 from ocean_lod_addon.core.plan import Facts, Settings
 from ocean_lod_addon.core.ripple_settings import Ripples
 from ocean_lod_addon.core.sea import Sea
+
+from .plane_tiles import no_tile
 
 NOTHING = Work(*[0.0] * len(dataclasses.fields(Work)))
 
@@ -38,40 +42,59 @@ def settings(**grid):
 
 @pytest.mark.parametrize("grid", [Grid(cells=64, levels=6), Grid(cells=256, levels=11), Grid(cells=128, levels=1)])
 @pytest.mark.parametrize("waves", [8, 128])
-def test_counted_work_is_what_the_kernel_does(grid, waves):
-    # A run of tiles takes the waves of the one that needs most, at most an eighth more; nothing else differs.
-    ocean = Ocean(Sea(wave_count=waves), grid)
+@pytest.mark.parametrize("contraction", CONTRACTIONS)
+@pytest.mark.parametrize("share_in_view", [None, 0.0, 0.3])
+def test_counted_work_is_what_the_kernel_does(grid, waves, contraction, share_in_view):
+    ocean = Ocean(Sea(wave_count=waves), grid, foam=Foam(memory_steps=4))
     components = discretise(ocean.sea, grid.shortest_wavelength)
-    kernel = FrameKernel(grid, components, "matmul")
-    counted = work_of(ocean, components, (POSITION, TANGENTS))
-    kernel.fill_factors(0.0, np.zeros((grid.levels, 2)), (POSITION, TANGENTS))
-    outputs = {b: np.empty((kernel.vertex_count, b.columns), np.float32) for b in (POSITION, TANGENTS)}
-    products = [p for block, out in outputs.items() for p in kernel.products(out, block=block)]
-    multiplications = sum(0.5 * p.operations for p in products)
-    assert counted.multiplications <= multiplications <= 1.125 * counted.multiplications
-    assert counted.floats == sum(p.out.size for p in products) == 8 * grid.vertex_count
-    assert counted.products == pytest.approx(len(products), rel=0.35)  # a count of calls, microseconds each
+    sizes = tile_sizes(grid.cells, grid.levels)
+    rows = np.arange(sizes.shape[1])[:, None] + 0 * sizes
+    visible = None if share_in_view is None else (rows < share_in_view * sizes.shape[1]) & (sizes > 0)
+    kernel = FrameKernel(grid, components, contraction)
+    past = Whitecaps(ocean.foam, ocean.sea, grid, components).block
+    blocks = (POSITION, TANGENTS, past)
+    kernel.fill_factors(0.0, np.zeros((grid.levels, 2)), blocks)
+    products = {
+        block: kernel.products(np.empty((kernel.vertex_count, block.columns), np.float32), visible, block=block)
+        for block in blocks
+    }
+    counted = work_of(ocean, components, (POSITION, TANGENTS), contraction, visible)
+    of_waves, of_foam = products[POSITION] + products[TANGENTS], products[past]
+    assert counted.multiplications == pytest.approx(sum(0.5 * p.operations for p in of_waves), rel=1e-12)
+    assert counted.foam_multiplications == pytest.approx(sum(0.5 * p.operations for p in of_foam), rel=1e-12)
+    pieces = _pieces if contraction == "einsum" else lambda product: [product]
+    assert counted.products == sum(len(list(pieces(p))) for p in of_waves)
+    assert counted.foam_products == sum(len(list(pieces(p))) for p in of_foam)
+    written = [p.out for p in of_waves] + [getattr(p, "mirrored", None) for p in of_waves]
+    assert counted.floats == sum(array.size for array in written if array is not None)
     assert counted.vertices == counted.normals == grid.vertex_count
 
 
 def test_work_of_what_is_in_view_and_of_a_share_of_the_waves():
     ocean = Ocean(grid=Grid(cells=64, levels=3))
     waves = discretise(ocean.sea, ocean.grid.shortest_wavelength)
-    whole = work_of(ocean, waves, (POSITION,))
-    tiles = FrameKernel(ocean.grid, waves).tile_count
-    none = work_of(ocean, waves, (POSITION,), visible=np.zeros(tiles, bool))
-    half = work_of(ocean, waves, (POSITION,), wave_limit=64)
-    assert none.multiplications == none.floats == 0.0  # still water is written once
+    whole = work_of(ocean, waves, (POSITION,), "matmul")
+    none = work_of(ocean, waves, (POSITION,), "matmul", visible=no_tile(ocean.grid))
+    half = work_of(ocean, waves, (POSITION,), "matmul", wave_limit=64)
+    assert none.multiplications == none.floats == none.factor_terms == 0.0  # still water is written once
     assert none.multiplications < half.multiplications < whole.multiplications
+
+
+def test_foam_of_the_past_needs_other_factors_than_mirrored_waves():
+    ocean = Ocean(grid=Grid(cells=64, levels=3), foam=Foam(memory_steps=4))
+    waves = discretise(ocean.sea, ocean.grid.shortest_wavelength)
+    terms = {name: work_of(ocean, waves, (POSITION,), name).factor_terms for name in CONTRACTIONS}
+    assert terms["einsum"] == 2.0 * terms["matmul"] > 0.0
 
 
 def test_work_of_ripples():
     # Texels times bands.
-    spectral = work_of(Ocean(ripples=Ripples(resolution="256")), discretise(Sea(), 0.4), ())
+    spectral = work_of(Ocean(ripples=Ripples(resolution="256")), discretise(Sea(), 0.4), (), "matmul")
     assert spectral.texels % 256**2 == 0
     assert spectral.far_texels == 0.0
-    assert work_of(Ocean(ripples=Ripples(resolution="1024")), discretise(Sea(), 0.4), ()).far_texels > 0.0
-    assert work_of(Ocean(ripples=Ripples(kind="off")), discretise(Sea(), 0.4), ()).images == 0.0
+    large = work_of(Ocean(ripples=Ripples(resolution="1024")), discretise(Sea(), 0.4), (), "matmul")
+    assert large.far_texels > 0.0
+    assert work_of(Ocean(ripples=Ripples(kind="off")), discretise(Sea(), 0.4), (), "matmul").images == 0.0
 
 
 # ------------------------------------------------------------------------------------------------- model

@@ -5,23 +5,56 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.errors import OceanError
-from ocean_lod_addon.core.lod import Grid, level_anchors, tiles, topology
+from ocean_lod_addon.core.lod import Grid, level_anchors, parts, rectangle, tile_edges, tile_sizes, topology
+
+from .plane_tiles import tiles
 
 SHAPES = [(8, 1), (8, 2), (8, 5), (64, 4), (256, 9), (512, 2)]
 
 
 def flat_positions(cells, levels, centre=(0.0, 0.0)):
-    """Undisturbed vertex positions, (vertices, 2); NaN would show a vertex that no tile owns."""
+    """Undisturbed vertex positions, (vertices, 2); NaN would show a vertex that no part owns."""
     grid = Grid(1.0, cells, levels)
     positions = np.full((grid.vertex_count, 2), np.nan)
     anchors = level_anchors(grid, centre)
-    for tile in tiles(cells, levels):
-        x_lines, y_lines = (grid.lines(tile.level) + anchor for anchor in anchors[tile.level])
-        x, y = np.meshgrid(
-            x_lines[tile.row_start : tile.row_stop], y_lines[tile.column_start : tile.column_stop], indexing="ij"
-        )
-        positions[tile.vertices] = np.stack([x.ravel(), y.ravel()], axis=-1)
+    for part in parts(cells, levels):
+        x_lines, y_lines = (grid.lines(part.level) + anchor for anchor in anchors[part.level])
+        x, y = np.meshgrid(x_lines[part.rows], y_lines[part.columns], indexing="ij")
+        part.of(positions)[:] = np.stack([x, y], axis=-1)
     return positions
+
+
+@pytest.mark.parametrize(("cells", "levels"), SHAPES)
+def test_tiles_own_every_vertex_once(cells, levels):
+    grid = Grid(1.0, cells, levels)
+    owners = np.zeros(grid.vertex_count, int)
+    sizes = tile_sizes(cells, levels)
+    for number, tile in tiles(grid):
+        tile.of(owners)[:] += 1
+        assert sizes[number] == np.prod(tile.shape)
+    assert (owners == 1).all()
+    assert sizes.sum() == grid.vertex_count
+
+
+@pytest.mark.parametrize("cells", [8, 72, 256, 520])
+def test_tiles_mirror_each_other_about_the_middle_line(cells):
+    """But for that line itself; and the edges of the hole are among theirs."""
+    edges = list(tile_edges(cells))
+    middle = len(edges) // 2
+    assert edges[middle] == cells // 2
+    mirrored = [cells + 1 - edge for edge in reversed(edges)]
+    assert mirrored[:middle] + mirrored[middle + 1 :] == edges[:middle] + edges[middle + 1 :]
+    assert (edges[middle // 2], edges[3 * middle // 2]) == (cells // 4, 3 * cells // 4 + 1)
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns"),
+    [((0, 20), (0, 65)), ((16, 20), (0, 17)), ((16, 20), (40, 49)), ((40, 65), (49, 65)), ((20, 21), (10, 60))],
+)
+def test_a_rectangle_keeps_clear_of_the_hole(rows, columns):
+    with pytest.raises(ValueError, match="clear of the hole of level 1"):
+        rectangle(64, 1, rows, columns)
+    assert rectangle(64, 0, rows, columns).shape == (rows[1] - rows[0], columns[1] - columns[0])
 
 
 def directed_edges(faces):

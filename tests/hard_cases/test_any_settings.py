@@ -18,7 +18,7 @@ from ocean_lod_addon.core.discretise import SMALLEST_BIN_ENERGY, band_layout, bi
 from ocean_lod_addon.core.dispersion import angular_frequency
 from ocean_lod_addon.core.errors import OceanError
 from ocean_lod_addon.core.gerstner import surface_points
-from ocean_lod_addon.core.lod import level_anchors, tiles, undisturbed_positions
+from ocean_lod_addon.core.lod import level_anchors, undisturbed_positions
 from ocean_lod_addon.core.ocean import Ocean, Surface
 from ocean_lod_addon.core.ocean_time import OceanTime, loop_period, sea_time
 from ocean_lod_addon.core.placement import Placement, place
@@ -28,6 +28,7 @@ from ocean_lod_addon.core.spectra.moments import spectrum_moments
 from ocean_lod_addon.core.spectra.table import spectrum_of
 from ocean_lod_addon.core.spreading.table import spreading_of
 from ocean_lod_addon.core.waves import TWO_PI
+from tests.core.plane_tiles import tiles
 from tests.core.test_kernel import windowed_direct_sum
 from tests.hard_cases.catalogue import FLOAT32_ROUNDING, FLOAT64_ROUNDING
 from tests.hard_cases.strategies import (
@@ -247,8 +248,7 @@ def test_what_the_camera_sees_is_never_left_flat(grid, camera, centre, highest, 
     """
     anchors = level_anchors(grid, centre)
     planes = frame_planes(camera, margin)
-    count = len(tiles(grid.cells, grid.levels))
-    anywhere = Carried(np.zeros((count, 3)), np.full(count, highest), 1.0)
+    anywhere = Carried(np.zeros((0, 1, 1, 3)), np.full(grid.levels, highest), 1.0)
     seen = visible_tiles(grid, anchors, planes, anywhere)
     random = np.random.default_rng(4)
     points = undisturbed_positions(grid, anchors)
@@ -256,8 +256,8 @@ def test_what_the_camera_sees_is_never_left_flat(grid, camera, centre, highest, 
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     moved = np.column_stack([points, np.zeros(len(points))]) + highest * directions
     inside = (moved @ planes[:, :3].T + planes[:, 3] > 1e-6 * (1.0 + np.abs(moved).max())).all(axis=1)
-    for tile, is_seen in zip(tiles(grid.cells, grid.levels), seen, strict=True):
-        assert is_seen or not inside[tile.vertices].any()
+    for number, tile in tiles(grid):
+        assert seen[number] or not tile.of(inside).any()
 
 
 @any_settings

@@ -7,11 +7,11 @@ import pytest
 
 import ocean_lod_addon
 from ocean_lod_addon.core.gerstner import surface_points
-from ocean_lod_addon.core.lod import tiles
 from ocean_lod_addon.core.waves import WaveSet
 from ocean_lod_addon.core.windows import window, window_reach
 from ocean_lod_addon.scene import mesh as mesh_arrays
 from ocean_lod_addon.scene import ocean_object
+from tests.core.plane_tiles import tiles
 
 CELLS, LEVELS = 64, 5
 
@@ -43,9 +43,10 @@ def expected_positions(ob, time):
     grid, waves = surface.ocean.grid, surface.waves
     reach = window_reach(grid, waves.wavelength)
     numbers, expected = [], []
-    for tile in tiles(grid.cells, grid.levels):
+    for _, tile in tiles(grid):
         lines = grid.lines(tile.level)
-        for row, column in ((0, 0), (tile.rows // 2, tile.columns // 3), (tile.rows - 1, tile.columns - 1)):
+        rows, columns = tile.shape
+        for row, column in ((0, 0), (rows // 2, columns // 3), (rows - 1, columns - 1)):
             x, y = lines[tile.row_start + row], lines[tile.column_start + column]
             here = WaveSet(
                 waves.amplitude * window(abs(x), reach) * window(abs(y), reach),
@@ -56,7 +57,7 @@ def expected_positions(ob, time):
                 waves.orbit_ratio,
                 waves.system,
             )
-            numbers.append(tile.first_vertex + row * tile.columns + column)
+            numbers.append(tile.first_vertex + row * tile.stride + column)
             expected.append(surface_points(here, x, y, time).position)
     return np.array(numbers), np.array(expected)
 

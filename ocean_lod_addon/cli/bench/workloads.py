@@ -10,7 +10,7 @@ from ...core.camera_view import CameraView
 from ...core.contraction import CONTRACTIONS, Product
 from ...core.discretise import discretise
 from ...core.kernel import FrameKernel, ReusedArray
-from ...core.lod import Grid, tiles
+from ...core.lod import Grid, tile_sizes
 from ...core.ocean import Ocean, Surface
 from ...core.ripples.bump import Bump
 from ...core.sea import Sea
@@ -221,8 +221,8 @@ def view_case(grid: Grid, sea: Sea, contraction: str) -> ViewCase:
 
 
 def _share_of_vertices(grid, visible):
-    counts = np.array([tile.vertex_count for tile in tiles(grid.cells, grid.levels)])
-    return float(counts[visible].sum() / counts.sum())
+    sizes = tile_sizes(grid.cells, grid.levels)
+    return float(sizes[visible].sum() / sizes.sum())
 
 
 def level_camera(x: float) -> CameraView:

@@ -30,9 +30,9 @@ def settings_of(sea: Sea, grid: Grid, ripples: Ripples, foam: Foam | None = None
     return Settings(sea, grid, Framing(), MaterialSettings(), ripples, foam or Foam(), Effects())
 
 
-def work(settings: Settings) -> Work:
-    """The work of a frame of these settings."""
-    return planned_work(IN_VIEWPORT, settings, None)
+def work(settings: Settings, contraction: str | None = None) -> Work:
+    """The work of a frame of these settings, with a contraction of core.contraction or this NumPy's own."""
+    return planned_work(IN_VIEWPORT, settings, None, contraction)
 
 
 class NumpyFrame:

@@ -100,7 +100,7 @@ def _try_case(find, contraction, with_blender, grid, waves, ripples, instants):
     settings = frames.settings_of(Sea(wave_count=waves), grid, ripples, Foam(memory_steps=instants))
     name = f"{grid.vertex_count} vertices, {waves} waves, ripples {_text(ripples)}, foam {instants}"
     print(f"    {name}", flush=True)
-    work = frames.work(settings)
+    work = frames.work(settings, contraction)
 
     def in_turns(ocean):
         run = one_after_another(ocean.contestant(name))

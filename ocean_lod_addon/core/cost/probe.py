@@ -137,7 +137,7 @@ class _Surface:
         self._outputs = {
             block: np.empty((self._kernel.vertex_count, block.columns), np.float32) for block in blocks
         }
-        self.work = work_of(ocean, waves, blocks)
+        self.work = work_of(ocean, waves, blocks, contraction)
 
     def form_factors(self, time):
         """The part of a frame that depends on time."""
@@ -162,7 +162,7 @@ class _FoamSurface:
         self._multiply = CONTRACTIONS[contraction].multiply
         self._columns = np.zeros((self._kernel.vertex_count, instants), np.float32)
         self._kernel.fill_factors(0.0, np.zeros((levels, 2)), (self._whitecaps.block,))
-        self.work = work_of(ocean, waves, ())
+        self.work = work_of(ocean, waves, (), contraction)
 
     def multiply(self, _time):
         """The columns of all instants."""

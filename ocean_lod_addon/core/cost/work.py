@@ -1,21 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The work that a frame of an ocean takes, counted from its settings without doing it."""
 
-import itertools
+import functools
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..column_blocks import TANGENTS, ColumnBlock
-from ..contraction import PIECE_COLUMNS
-from ..lod import Grid, tiles
+from ..contraction import CONTRACTIONS, PIECE_COLUMNS, PIECE_ROWS, piece_count
+from ..factors import mirrored_terms
+from ..lod import tile_edges, tile_sizes
 from ..ocean import Ocean
+from ..patches import Patches
 from ..ripples.bump import bump_layout
 from ..waves import WaveSet
-from ..windows import window_reach
-
-_LONGEST_RUN = 512
-"""Rows of one product, about."""
+from ..windows import fading_waves, first_wave
 
 
 @dataclass(frozen=True)
@@ -25,7 +24,7 @@ class Work:
     multiplications  multiply-adds of all matrix products
     runs             rows of the products times waves: each is one run over columns that lie side by side
     floats           numbers that they write
-    products         how many there are
+    products         how many there are, or how many pieces they are cut into
     factor_terms     complex numbers of the factors that are formed anew
     vertices         of the mesh
     normals          vertices whose normal is made from the waves, 0 without
@@ -63,82 +62,108 @@ _FOAM_VECTORS = 1 / 3
 
 
 def work_of(
-    ocean: Ocean, waves: WaveSet, blocks: tuple[ColumnBlock, ...], visible=None, wave_limit: int | None = None
+    ocean: Ocean,
+    waves: WaveSet,
+    blocks: tuple[ColumnBlock, ...],
+    contraction: str,
+    visible=None,
+    wave_limit: int | None = None,
 ) -> Work:
     """The work of one frame with these column blocks, and those of foam if the ocean has foam.
 
-    `visible` and `wave_limit` as in `Placement`.
+    `contraction` is one of contraction.CONTRACTIONS; `visible` and `wave_limit` as in `Placement`. Still water is
+    written once and not counted.
     """
-    counts = _waves_of_tiles(ocean.grid, waves.wavelength)
-    plane = tiles(ocean.grid.cells, ocean.grid.levels)
-    vertices = np.array([tile.vertex_count for tile in plane], dtype=float)
-    if wave_limit is not None:
-        counts = np.minimum(counts, wave_limit)
-    if visible is not None:
-        moving = np.asarray(visible)  # still water is written once
-        plane, vertices, counts = tuple(itertools.compress(plane, moving)), vertices[moving], counts[moving]
+    grid, mirrored = ocean.grid, CONTRACTIONS[contraction].mirrored
+    visible = tile_sizes(grid.cells, grid.levels) > 0 if visible is None else visible
     base = 4 if ocean.framing.curved_earth else 2
     instants = 0 if ocean.foam is None else ocean.foam.memory_steps
     # The column of the present is real, as those of the blocks are: one more block. Those of the past are complex.
     widths = [block.columns for block in blocks] + [1] * (instants == 1)
-    past = instants if instants > 1 else 0
-    columns = sum(widths)
-    inner = 2 * counts + base
-    rows = np.array([tile.rows for tile in plane], dtype=float)
-    pieces = np.array([sum(_pieces(tile.columns * width) for width in widths) for tile in plane])
-    foam_pieces = np.array([_pieces(tile.columns * past) if past else 0 for tile in plane])
+    past = [instants] if instants > 1 else []
+    present, before = (
+        _product_work(grid, waves, base, contraction, columns, mirrored and columns is widths, visible, wave_limit)
+        for columns in (widths, past)
+    )
+    kinds_of_left = 1 + (mirrored and bool(past) and bool(widths))
+    vertices = float(grid.vertex_count)
     return Work(
-        multiplications=float(columns * np.sum(inner * vertices)),
-        runs=float(np.sum(inner * rows * pieces)),
-        floats=float(columns * vertices.sum()),
-        products=float(len(widths) * _run_count(plane, counts)),
-        factor_terms=float(_factor_terms(ocean.grid, waves.wavelength)),
-        vertices=float(ocean.grid.vertex_count),
-        normals=float(ocean.grid.vertex_count) if TANGENTS in blocks else 0.0,
+        multiplications=present.multiplications,
+        runs=present.runs,
+        floats=present.floats,
+        products=present.products,
+        factor_terms=float(kinds_of_left * _factor_terms(grid, waves, visible)),
+        vertices=vertices,
+        normals=vertices if TANGENTS in blocks else 0.0,
         vectors=len(blocks) + (_FOAM_VECTORS if instants else 0.0),
-        foam_multiplications=float(past * np.sum(inner * vertices)),
-        foam_runs=float(np.sum(inner * rows * foam_pieces)),
-        foam_floats=float(instants * ocean.grid.vertex_count),
-        foam_products=float(_run_count(plane, counts)) if past else 0.0,
-        foam_vertices=float(ocean.grid.vertex_count) if instants else 0.0,
+        foam_multiplications=before.multiplications,
+        foam_runs=before.runs,
+        foam_floats=instants * vertices,
+        foam_products=before.products,
+        foam_vertices=vertices if instants else 0.0,
         **ripple_work(_images(ocean)),
     )
 
 
-def _pieces(columns):
-    """Into how many runs over neighbouring columns a row of a product is cut."""
-    return max(1, round(columns / PIECE_COLUMNS))
+@dataclass(frozen=True)
+class _ProductWork:
+    """The part of `Work` that products of one kind make; all 0 without columns."""
+
+    multiplications: float
+    runs: float
+    floats: float
+    products: float
 
 
-def _waves_of_tiles(grid: Grid, wavelength):
-    """How many waves are not zero on each tile, (tiles,): those that reach its place nearest to the centre."""
-    reach = np.sort(window_reach(grid, wavelength))
-    nearest = np.empty(len(tiles(grid.cells, grid.levels)))
-    for number, tile in enumerate(tiles(grid.cells, grid.levels)):
-        distance = np.abs(np.arange(grid.cells + 1) - grid.cells // 2) * grid.spacing(tile.level)
-        rows = distance[tile.row_start : tile.row_stop].min()
-        columns = distance[tile.column_start : tile.column_stop].min()
-        nearest[number] = max(rows, columns) - (grid.spacing(tile.level) if tile.level else 0.0)
-    return len(reach) - np.searchsorted(reach, nearest, side="right")
+def _product_work(grid, waves, base, contraction, widths, folded, visible, wave_limit):
+    """Of blocks with so many columns each, on a plane that is folded about its middle line or not."""
+    patches = _patches(grid, waves, folded).of(visible, wave_limit) if widths else []
+    if not patches:
+        return _ProductWork(0.0, 0.0, 0.0, 0.0)
+    level, row, row_stop, column, column_stop, count, own, image = np.array(patches, int).T
+    edges = np.array(tile_edges(grid.cells))
+    rows = edges[row_stop] - edges[row]
+    columns = edges[len(edges) // 2 :] if folded else edges
+    lines = columns[column_stop] - columns[column]
+    written = (own + image) * lines - (image * (column == 0) if folded else 0)  # the middle line has no image
+    terms = 2 * count + base
+    if folded:
+        present, fading = _level_waves(grid, waves)
+        terms = 2 * (mirrored_terms(count, present[level], fading[level]) + base)
+    multiplications = runs = products = 0.0
+    for width in widths:
+        across, along = np.ones_like(rows), np.ones_like(rows)
+        if contraction == "einsum":
+            across, along = _pieces(rows, PIECE_ROWS), _pieces(width * lines, PIECE_COLUMNS)
+        multiplications += width * float(np.sum(terms * rows * lines))
+        runs += float(np.sum(terms * rows * along))
+        products += float(np.sum(across * along))
+    return _ProductWork(multiplications, runs, sum(widths) * float(np.sum(rows * written)), products)
 
 
-def _run_count(plane, counts):
-    """How many products neighbouring tiles are grouped into, about: strips of rows with as many waves."""
-    runs, rows, last = 0, 0, None
-    for tile, count in zip(plane, counts, strict=True):
-        goes_on = last is not None and (tile.level, tile.column_start, tile.row_start) == last[:3]
-        if not goes_on or abs(count - last[3]) > min(count, last[3]) / 8 or rows + tile.rows > _LONGEST_RUN:
-            runs, rows = runs + 1, 0
-        rows += tile.rows
-        last = (tile.level, tile.column_start, tile.row_stop, count)
-    return runs
+def _pieces(lengths, size):
+    return np.array([piece_count(length, size) for length in lengths.tolist()])
 
 
-def _factor_terms(grid: Grid, wavelength):
-    """Lines times waves of all levels: each wave on those that it reaches."""
-    reach = window_reach(grid, wavelength)
-    inner = [0.0] + [grid.spacing(level) * (grid.cells / 4 - 1) for level in range(1, grid.levels)]
-    return sum((grid.cells + 1) * int(np.count_nonzero(reach > distance)) for distance in inner)
+@functools.lru_cache(maxsize=32)
+def _patches(grid, waves, folded):
+    return Patches(grid, waves.wavelength, folded)
+
+
+def _level_waves(grid, waves):
+    """How many waves there are on each level, and how many of them fade on it, (levels,) int."""
+    wavelength = np.sort(waves.wavelength)
+    firsts = [first_wave(grid, level, wavelength) for level in range(grid.levels)]
+    fading = [fading_waves(grid, level, wavelength[first:]) for level, first in enumerate(firsts)]
+    return len(wavelength) - np.array(firsts), np.array(fading)
+
+
+def _factor_terms(grid, waves, visible):
+    """Lines times waves of all levels, from the first to the last line in view."""
+    edges, rows = np.array(tile_edges(grid.cells)), visible.any(axis=2)
+    first, past = rows.argmax(axis=1), rows.shape[1] - rows[:, ::-1].argmax(axis=1)
+    lines = np.where(rows.any(axis=1), edges[past] - edges[first], 0)
+    return np.sum(lines * _level_waves(grid, waves)[0])
 
 
 _CACHED_TEXELS = 512
