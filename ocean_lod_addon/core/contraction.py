@@ -28,10 +28,20 @@ class Product:
     right: np.ndarray
     out: np.ndarray
 
-    @property
+    @functools.cached_property
     def operations(self) -> float:
         """Additions and multiplications."""
         return 2.0 * self.left.shape[0] * self.left.shape[1] * self.right.shape[1]
+
+    @functools.cached_property
+    def pieces(self) -> tuple["Product", ...]:
+        """It cut up for threads without BLAS; every element is summed in the same order as in the whole."""
+        rows, columns = self.out.shape
+        return tuple(
+            Product(self.left[across], self.right[:, along], self.out[across, along])
+            for across in _even_slices(rows, PIECE_ROWS)
+            for along in _even_slices(columns, PIECE_COLUMNS)
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +61,7 @@ class MirroredProduct:
     out: np.ndarray | None
     mirrored: np.ndarray | None
 
-    @property
+    @functools.cached_property
     def operations(self) -> float:
         """Additions and multiplications in U and V."""
         return sum(
@@ -59,18 +69,25 @@ class MirroredProduct:
             for left, right in zip(self.left, self.right, strict=True)
         )
 
+    @functools.cached_property
+    def pieces(self) -> tuple["MirroredProduct", ...]:
+        """It cut up for threads, as a `Product` is."""
+        return tuple(
+            self._piece(across, along)
+            for across in _even_slices(len(self.left[0]), PIECE_ROWS)
+            for along in _even_slices(self._lines, PIECE_COLUMNS // len(self.signs))
+        )
+
     @property
-    def lines(self) -> int:
-        """Of the rectangle, along its rows."""
+    def _lines(self):
         return self.right[0].shape[1] // len(self.signs)
 
-    def cut(self, rows: slice, lines: slice) -> "MirroredProduct":
-        """These rows and lines of it."""
+    def _piece(self, rows, lines):
         width = len(self.signs)
         columns = slice(width * lines.start, width * lines.stop)
         mirrored = None
         if self.mirrored is not None:
-            without_image = self.lines - self.mirrored.shape[1]
+            without_image = self._lines - self.mirrored.shape[1]
             image = slice(max(lines.start - without_image, 0), lines.stop - without_image)
             mirrored = self.mirrored[rows, image]
         return MirroredProduct(
@@ -98,26 +115,30 @@ def multiply_with_blas(products) -> None:
 
 def multiply_without_blas(products) -> None:
     """All products by np.einsum, in pieces spread over the processor's cores."""
-    pieces = [piece for product in products for piece in _pieces(product)]
-    in_threads(_multiply_piece, pieces)
+    in_threads(_multiply_batch, _batches(products))
 
+
+def _batches(products):
+    """The pieces of some products in lists of about equal work, as many for each core; or one, of little work."""
+    pieces = [piece for product in products for piece in product.pieces]
+    operations = sum(piece.operations for piece in pieces)
+    count = piece_count(operations, WORTH_A_THREAD)
+    if count > 1:
+        count += -count % _core_count()
+    result, done = [[] for _ in range(count)], 0.0
+    for piece in pieces:
+        result[min(int(count * (done + 0.5 * piece.operations) / operations), count - 1)].append(piece)
+        done += piece.operations
+    return [batch for batch in result if batch]
+
+
+WORTH_A_THREAD = 3e7
+"""Additions and multiplications, two or three milliseconds. To hand work over and to pass the interpreter lock to
+and fro costs more than half a millisecond."""
 
 PIECE_ROWS, PIECE_COLUMNS = 128, 1024
-"""A piece of a product for one thread, about; milliseconds of work. For each row of `left`, einsum runs through
-all of `right`: shorter runs slow its inner loop, longer ones push the row that they add to out of the cache."""
-
-
-def _pieces(product):
-    """A product cut up; every element is summed in the same order as in the whole."""
-    if isinstance(product, MirroredProduct):
-        for across in _even_slices(len(product.left[0]), PIECE_ROWS):
-            for along in _even_slices(product.lines, PIECE_COLUMNS // len(product.signs)):
-                yield product.cut(across, along)
-        return
-    rows, columns = product.out.shape
-    for across in _even_slices(rows, PIECE_ROWS):
-        for along in _even_slices(columns, PIECE_COLUMNS):
-            yield Product(product.left[across], product.right[:, along], product.out[across, along])
+"""A piece of a product for one thread, about. For each row of `left`, einsum runs through all of `right`: shorter
+runs slow its inner loop, longer ones push the row that they add to out of the cache."""
 
 
 def _even_slices(length, size):
@@ -127,16 +148,17 @@ def _even_slices(length, size):
     return [slice(start, stop) for start, stop in itertools.pairwise(cuts)]
 
 
-def piece_count(length: int, size: int) -> int:
+def piece_count(length: float, size: float) -> int:
     """Into how many pieces of about `size` a length is cut."""
     return max(1, round(length / size))
 
 
-def _multiply_piece(product):
-    if isinstance(product, MirroredProduct):
-        _multiply_mirrored(product)
-    else:
-        np.einsum("ij,jk->ik", product.left, product.right, out=product.out)
+def _multiply_batch(pieces):
+    for piece in pieces:
+        if isinstance(piece, MirroredProduct):
+            _multiply_mirrored(piece)
+        else:
+            np.einsum("ij,jk->ik", piece.left, piece.right, out=piece.out)
 
 
 def _multiply_mirrored(product):
@@ -196,9 +218,13 @@ def in_threads(work: Callable[[object], object], pieces) -> None:
         pass
 
 
+def _core_count():
+    return os.cpu_count() or 1
+
+
 @functools.lru_cache(maxsize=1)
 def _threads():
-    return ThreadPoolExecutor(os.cpu_count(), "ocean_lod", np.setbufsize, (SMALL_BUFFER,))
+    return ThreadPoolExecutor(_core_count(), "ocean_lod", np.setbufsize, (SMALL_BUFFER,))
 
 
 SMALL_BUFFER = 256
@@ -257,7 +283,7 @@ def _faster_as_measured():
     generator = np.random.Generator(np.random.PCG64(0))
     left = generator.random((64, 258), np.float32)
     right = generator.random((258, 192), np.float32)
-    count = 2 * (os.cpu_count() or 1)
+    count = 2 * _core_count()
     products = [Product(left, right, np.empty((64, 192), np.float32)) for _ in range(count)]
     with_blas, without = (_best_time(CONTRACTIONS[name], products) for name in ("matmul", "einsum"))
     return "einsum" if _CLEAR_WIN * without < with_blas else "matmul"

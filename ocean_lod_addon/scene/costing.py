@@ -20,24 +20,19 @@ from ..core.cost.work import Work
 from ..core.errors import OceanError
 from ..core.lod import Grid
 from ..core.material_settings import MaterialSettings
-from ..core.plan import NORMAL_ATTRIBUTE
-from ..core.sea import Sea, WaveSystem
+from ..core.plan import EFFECT_ATTRIBUTES, NORMAL_ATTRIBUTE
+from ..core.ripple_settings import Ripples
+from ..core.sea import Sea
 from . import mesh as mesh_arrays
 from . import ocean_object, placing, planning, properties
 from .fresh_data import fresh_data
 from .ripple_images import IMAGE_KEY
 
-_PROBED = (
-    (64, 8, True, "off"),
-    (64, 8, False, "off"),
-    (128, 8, True, "off"),
-    (128, 8, False, "off"),
-    (64, 8, True, "random"),
-)
-"""(cells, levels, normals, ripples) of the objects that are measured in Blender."""
+_PROBED = ((64, 8, True), (64, 8, False), (128, 8, True), (128, 8, False))
+"""(cells, levels, normals) of the meshes that are measured in Blender."""
 
-_CALM = Sea(systems=(WaveSystem(wind_speed=0.0),))
-"""Neither waves nor ripples: nothing is computed for it."""
+_PROBED_OCEAN = Grid(cells=64, levels=8)
+"""The plane of an ocean that is measured there, with waves to decide about and an image of ripples."""
 
 _NOTHING = Work(*[0.0] * len(fields(Work)))
 
@@ -83,46 +78,32 @@ def _shown_image(texels):
 
 def _blender_cases():
     """Objects in scenes of their own: handing positions over, and Blender's evaluation of what has changed."""
-    probed = [_ProbedObject(*each) for each in _PROBED]
+    ocean = _ProbedOcean()
+    probed = [*(_ProbedMesh(*each) for each in _PROBED), ocean]
     return {
-        "setup": [(probed[-1].work, probed[-1].decide)],  # with waves to decide about
+        "setup": [(ocean.work, ocean.decide)],
         "write": [(one.work, one.write) for one in probed],
         "blender": [(one.work, one.evaluate) for one in probed],
     }
 
 
-class _ProbedObject:
-    """An ocean whose vertices move without being computed."""
+class _Probed:
+    """An object whose vertices move without being computed."""
 
-    def __init__(self, cells, levels, with_normals, ripples):
-        self._scene = bpy.data.scenes.new("probe")
-        sea = _CALM if ripples == "off" else Sea()
-        ob = ocean_object.create(self._scene, _CALM, Grid(cells=cells, levels=levels), MaterialSettings())
-        with properties.many_changes():
-            ob.ocean_lod.ripples.kind = ripples
-            ob.ocean_lod.ripples.resolution = "256"
-            properties.write_sea(sea, ob.ocean_lod)
-            ob.ocean_lod.effects.analytic_normals = "on" if with_normals else "off"
-        self._scene.collection.objects.link(ob)
-        ocean_object.refresh(ob, self._scene)
-        self._object = ob
+    def __init__(self, scene, ob, image=None):
+        scene.collection.objects.link(ob)
+        self._scene, self._object, self._image = scene, ob, image
         self.evaluate()
         self._positions = mesh_arrays.read_positions(ob.data)
-        self._image = next((i for i in bpy.data.images if i.get(IMAGE_KEY, "").startswith(ob.name)), None)
-        self._with_normals = with_normals
+        self._with_normals = NORMAL_ATTRIBUTE in ob.data.attributes
         vertices = float(len(self._positions))
         self.work = replace(
             _NOTHING,
             vertices=vertices,
-            normals=vertices * with_normals,
-            vectors=1.0 + with_normals,
-            images=float(self._image is not None),
+            normals=vertices * self._with_normals,
+            vectors=1.0 + self._with_normals,
+            images=float(image is not None),
         )
-
-    def decide(self, time):
-        """What a frame decides before it computes."""
-        depsgraph = self._scene.view_layers[0].depsgraph
-        ocean_object.decide_frame(self._object, self._scene, depsgraph, time)
 
     def write(self, _time):
         """Positions, and normals where there are any."""
@@ -137,6 +118,34 @@ class _ProbedObject:
     def evaluate(self, _time=0.0):
         """What Blender does about it."""
         self._scene.view_layers[0].update()
+
+
+class _ProbedMesh(_Probed):
+    """The mesh of an ocean, which is all that Blender evaluates of it: no material is made."""
+
+    def __init__(self, cells, levels, with_normals):
+        mesh = bpy.data.meshes.new("probe")
+        mesh_arrays.build_topology(mesh, Grid(cells=cells, levels=levels))
+        if with_normals:
+            mesh_arrays.ensure_attributes(mesh, [NORMAL_ATTRIBUTE], EFFECT_ATTRIBUTES)
+        ob = bpy.data.objects.new("probe", mesh)
+        ocean_object.add_pass_through_modifier(ob)
+        super().__init__(bpy.data.scenes.new("probe"), ob)
+
+
+class _ProbedOcean(_Probed):
+    """A whole ocean with ripples."""
+
+    def __init__(self):
+        scene, ripples = bpy.data.scenes.new("probe"), Ripples(kind="random", resolution="256")
+        ob = ocean_object.create(scene, Sea(), _PROBED_OCEAN, MaterialSettings(), ripples=ripples)
+        image = next(i for i in bpy.data.images if i.get(IMAGE_KEY, "").startswith(ob.name))
+        super().__init__(scene, ob, image)
+
+    def decide(self, time):
+        """What a frame decides before it computes."""
+        depsgraph = self._scene.view_layers[0].depsgraph
+        ocean_object.decide_frame(self._object, self._scene, depsgraph, time)
 
 
 def predict(ob, scene, settings=None, final: bool = True) -> dict[str, float]:

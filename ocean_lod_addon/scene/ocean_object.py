@@ -83,7 +83,7 @@ def create(
         properties.write_material(material, ob.ocean_lod)
         properties.write_ripples(ripples or Ripples(), ob.ocean_lod)
         properties.write_foam(foam or Foam(), ob.ocean_lod)
-        _add_pass_through_modifier(ob)
+        add_pass_through_modifier(ob)
         _rebuild_and_move(ob, scene)
         planned = planning.PlannedOcean(ob, scene)
         ocean_material.apply(ob, scene, planned.material)
@@ -96,7 +96,7 @@ def create(
     return ob
 
 
-def _add_pass_through_modifier(ob):
+def add_pass_through_modifier(ob):
     """A modifier that does nothing, but tells Blender that the mesh deforms.
 
     Without one, Alembic and USD export a static mesh and neither engine blurs moved vertices. Blender takes any

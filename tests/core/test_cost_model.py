@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ocean_lod_addon.core.column_blocks import POSITION, TANGENTS
-from ocean_lod_addon.core.contraction import CONTRACTIONS, _pieces
+from ocean_lod_addon.core.contraction import CONTRACTIONS
 from ocean_lod_addon.core.cost import model, probe
 from ocean_lod_addon.core.cost.budget import choose
 from ocean_lod_addon.core.cost.model import STAGES, CostModel, fit_prices
@@ -62,9 +62,9 @@ def test_counted_work_is_what_the_kernel_does(grid, waves, contraction, share_in
     of_waves, of_foam = products[POSITION] + products[TANGENTS], products[past]
     assert counted.multiplications == pytest.approx(sum(0.5 * p.operations for p in of_waves), rel=1e-12)
     assert counted.foam_multiplications == pytest.approx(sum(0.5 * p.operations for p in of_foam), rel=1e-12)
-    pieces = _pieces if contraction == "einsum" else lambda product: [product]
-    assert counted.products == sum(len(list(pieces(p))) for p in of_waves)
-    assert counted.foam_products == sum(len(list(pieces(p))) for p in of_foam)
+    cut = contraction == "einsum"
+    assert counted.products == sum(len(p.pieces) if cut else 1 for p in of_waves)
+    assert counted.foam_products == sum(len(p.pieces) if cut else 1 for p in of_foam)
     written = [p.out for p in of_waves] + [getattr(p, "mirrored", None) for p in of_waves]
     assert counted.floats == sum(array.size for array in written if array is not None)
     assert counted.vertices == counted.normals == grid.vertex_count
