@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .carried import RIM, Carried
-from .lod import Grid, tile_edges, tile_sizes
+from .lod import Grid, tile_sides, tile_sizes
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,10 +106,9 @@ def looks_down(view: CameraView, margin: float, highest: float) -> bool:
 def _sides(grid):
     """Along either axis, of tiles with the cells that join them to others: the middles, from the level's anchor,
     and half the lengths, both (levels, tiles) m."""
-    edges = np.array(tile_edges(grid.cells))
-    first, last = edges[:-1], edges[1:] - 1
+    middles, halves = tile_sides(grid.cells)
     spacing = grid.cell_size * np.exp2(np.arange(grid.levels))[:, None]
-    return spacing * (0.5 * (first + last) - grid.cells // 2), spacing * (0.5 * (last - first) + RIM)
+    return spacing * middles, spacing * (halves + RIM)
 
 
 def nearest_visible_water(view: CameraView) -> np.ndarray:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .lod import Grid, tile_edges
+from .lod import Grid, tile_sides
 from .waves import WaveSet
 from .windows import FADE_START, furthest_shift, window_levels, window_reach
 
@@ -72,7 +72,7 @@ def highest_wave(waves: WaveSet) -> float:
 
 def carried_at_any_time(grid: Grid, waves: WaveSet) -> Carried:
     """What may be said without a time: every wave anywhere."""
-    tiles = len(tile_edges(grid.cells)) - 1
+    tiles = len(tile_sides(grid.cells)[0])
     orbit_ratio = float(waves.orbit_ratio.max(initial=0.0))
     return Carried(np.zeros((0, tiles, tiles, 3)), np.full(grid.levels, highest_wave(waves)), orbit_ratio)
 
@@ -99,9 +99,8 @@ def _carriers(grid, waves):
     heading = np.stack([np.cos(waves.direction), np.sin(waves.direction)])
     unmoved, levels = carried_at_any_time(grid, waves), []
     anywhere, wave_levels = unmoved.highest.max(), window_levels(grid, waves.wavelength)
-    edges = np.array(tile_edges(grid.cells))
-    middles = 0.5 * (edges[:-1] + edges[1:] - 1) - grid.cells // 2
-    half_side = 0.5 * (np.diff(edges).max() - 1) + RIM
+    middles, halves = tile_sides(grid.cells)
+    half_side = halves.max() + RIM
     for number in range(grid.levels):
         spacing = grid.spacing(number)
         radius = np.sqrt(2.0) * half_side * spacing

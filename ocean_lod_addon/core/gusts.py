@@ -79,8 +79,7 @@ def gust_factor(
         px, py = np.multiply.outer(x, waves.kx), np.multiply.outer(waves.ky, y) + offset[:, None]
         left = np.hstack([np.cos(px), -np.sin(px)]).astype(np.float32)
         right = (amplitude * np.vstack([np.cos(py), np.sin(py)])).astype(np.float32)
-        for part in parts(grid.cells, grid.levels):
-            if part.level == level:
-                np.matmul(left[part.rows], right[:, part.columns], out=part.of(n))
+        for part in parts(grid.cells, level):
+            np.matmul(left[part.rows], right[:, part.columns], out=part.of(n))
     a = ripples.gust_strength
     return np.exp(np.float32(a) * n) / np.float32(np.prod(np.i0(a * np.full(WAVES, amplitude))))

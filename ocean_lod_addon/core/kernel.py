@@ -32,7 +32,7 @@ from .column_blocks import POSITION, ColumnBlock
 from .contraction import CONTRACTIONS, MirroredProduct, Product, fastest_contraction, small_buffers
 from .factors import Level
 from .lod import Grid, rectangle, tile_edges, tile_sizes
-from .patches import Patch, Patches, exact_patches
+from .patches import Patch, Patches, exact_patches, lines_in_view
 from .waves import WaveSet
 
 
@@ -147,18 +147,10 @@ class FrameKernel:
         phasors.real = self._waves.amplitude * np.cos(at_anchors)
         phasors.imag = self._waves.amplitude * np.sin(at_anchors)
         phasors = phasors[:, self._order]
+        lines = lines_in_view(self._grid.cells, self._everywhere if visible is None else visible)
         with small_buffers():
-            for level, phasor, rows in zip(self._levels, phasors, self._visible_rows(visible), strict=True):
+            for level, phasor, rows in zip(self._levels, phasors, lines, strict=True):
                 level.fill(phasor, anchors, blocks, rows)
-
-    def _visible_rows(self, visible):
-        """For each level its lines from the first to the last tile that is visible."""
-        if visible is None:
-            return [slice(0, len(level.lines)) for level in self._levels]
-        rows = visible.any(axis=2)
-        first, past = rows.argmax(axis=1), rows.shape[1] - rows[:, ::-1].argmax(axis=1)
-        ends = zip(rows.any(axis=1).tolist(), first.tolist(), past.tolist(), strict=True)
-        return [slice(self._edges[a], self._edges[b]) if some else slice(0, 0) for some, a, b in ends]
 
     def products(
         self, out: np.ndarray, visible=None, wave_limit: int | None = None, block: ColumnBlock = POSITION

@@ -161,14 +161,12 @@ def _level_start(cells, level):
 
 
 @functools.lru_cache(maxsize=32)
-def parts(cells: int, levels: int) -> tuple[Rectangle, ...]:
-    """Rectangles that together own every vertex once: the innermost level, and of others four around the hole."""
+def parts(cells: int, level: int) -> tuple[Rectangle, ...]:
+    """Rectangles that together own every vertex of a level once: four around the hole, or the innermost itself."""
     hole, all_lines = _hole(cells), (0, cells + 1)
     low, beside, high = (0, hole.start), (hole.start, hole.stop), (hole.stop, cells + 1)
     around = [(low, all_lines), (beside, low), (beside, high), (high, all_lines)]
-    result = [rectangle(cells, 0, all_lines, all_lines)]
-    result += [rectangle(cells, level, *lines) for level in range(1, levels) for lines in around]
-    return tuple(result)
+    return tuple(rectangle(cells, level, *lines) for lines in (around if level else [(all_lines, all_lines)]))
 
 
 _TILE_LINES = 16
@@ -195,6 +193,14 @@ def tile_edges(cells: int) -> tuple[int, ...]:
     return (*low, middle, *high, cells + 1)
 
 
+def tile_sides(cells: int) -> tuple[np.ndarray, np.ndarray]:
+    """Along either axis, of each tile: the middle of its lines from the level's anchor, and half its length, in
+    cells."""
+    edges = np.array(tile_edges(cells))
+    first, last = edges[:-1], edges[1:] - 1
+    return 0.5 * (first + last) - cells // 2, 0.5 * (last - first)
+
+
 @functools.lru_cache(maxsize=32)
 def tile_sizes(cells: int, levels: int) -> np.ndarray:
     """Number of vertices of each tile, (levels, tiles in a column, tiles in a row) int; 0 in the hole of a level.
@@ -212,11 +218,12 @@ def tile_sizes(cells: int, levels: int) -> np.ndarray:
 def undisturbed_positions(grid: Grid, anchors: np.ndarray) -> np.ndarray:
     """Where the vertices stand in still water, (vertices, 2) float64, m, for level anchors (levels, 2)."""
     positions = np.empty((grid.vertex_count, 2))
-    for part in parts(grid.cells, grid.levels):
-        x, y = (grid.lines(part.level) + anchor for anchor in anchors[part.level])
-        block = part.of(positions)
-        block[..., 0] = x[part.rows, None]
-        block[..., 1] = y[None, part.columns]
+    for level in range(grid.levels):
+        x, y = (grid.lines(level) + anchor for anchor in anchors[level])
+        for part in parts(grid.cells, level):
+            block = part.of(positions)
+            block[..., 0] = x[part.rows, None]
+            block[..., 1] = y[None, part.columns]
     return positions
 
 
@@ -245,8 +252,9 @@ def _vertex_numbers(cells, levels, count):
     """Vertex number at each lattice point of each level, (cells + 1)^2 int32; -1 in a level's hole."""
     numbers = [np.full((cells + 1, cells + 1), -1, np.int32) for _ in range(levels)]
     every = np.arange(count, dtype=np.int32)
-    for part in parts(cells, levels):
-        numbers[part.level][part.rows, part.columns] = part.of(every)
+    for level, lattice in enumerate(numbers):
+        for part in parts(cells, level):
+            lattice[part.rows, part.columns] = part.of(every)
     return numbers
 
 

@@ -48,6 +48,14 @@ _WASTE = 0.15
 """A patch grows by another row of tiles if that adds no more than this share to the multiplications it needs."""
 
 
+def lines_in_view(cells: int, visible: np.ndarray) -> list[slice]:
+    """For each level its lines from the first to the last row of tiles that has visible ones (a flag for each)."""
+    edges, rows = tile_edges(cells), visible.any(axis=2)
+    first, past = rows.argmax(axis=1), rows.shape[1] - rows[:, ::-1].argmax(axis=1)
+    ends = zip(rows.any(axis=1).tolist(), first.tolist(), past.tolist(), strict=True)
+    return [slice(edges[start], edges[stop]) if some else slice(0, 0) for some, start, stop in ends]
+
+
 class Patches:
     """What puts the tiles of one plane together, with the waves that reach each."""
 
@@ -144,6 +152,7 @@ def _within(flags, patch):
 def exact_patches(flags: np.ndarray) -> list[Patch]:
     """Patches without waves that cover just these tiles, a flag for each, and nothing else."""
     levels, rows, columns = flags.shape
+    hole_rows = _hole_rows(rows)
     spaced = np.zeros(levels * rows * (columns + 1) + 1, bool)  # a gap before each row and at the end
     spaced[:-1].reshape(-1, columns + 1)[:, 1:] = flags.reshape(-1, columns)
     starts, stops = np.flatnonzero(spaced[1:] != spaced[:-1]).reshape(-1, 2).T
@@ -152,7 +161,7 @@ def exact_patches(flags: np.ndarray) -> list[Patch]:
     result, growing = [], {}
     for level, row, first, past in zip(*(each.tolist() for each in numbers), strict=True):
         below = growing.get((level, first, past))
-        if below is not None and below.row_stop == row and not (level and row in _hole_rows(rows)):
+        if below is not None and below.row_stop == row and not (level and row in hole_rows):
             growing[level, first, past] = below._replace(row_stop=row + 1)
             continue
         if below is not None:

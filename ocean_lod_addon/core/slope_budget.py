@@ -54,9 +54,8 @@ def resolved_sums(grid: Grid, waves: WaveSet, values: np.ndarray) -> np.ndarray:
         present = squared.any(axis=0)
         left = squared[:, present].astype(np.float32)
         right = (squared[:, present].T[:, :, None] * values[present][:, None, :]).astype(np.float32)
-        for part in parts(grid.cells, grid.levels):
-            if part.level == level:
-                part.of(result)[:] = np.tensordot(left[part.rows], right[:, part.columns], axes=1)
+        for part in parts(grid.cells, level):
+            part.of(result)[:] = np.tensordot(left[part.rows], right[:, part.columns], axes=1)
     return result
 
 

@@ -88,10 +88,11 @@ def heights_of_mesh(grid: Grid, anchors: np.ndarray, z: np.ndarray, x, y) -> np.
 
     NaN where the cell joins two levels, and outside the plane.
     """
-    side = grid.cells + 1
+    side, z = grid.cells + 1, np.ascontiguousarray(z)
     lattices = np.full((grid.levels, side, side), np.nan)
-    for part in parts(grid.cells, grid.levels):
-        lattices[part.level, part.rows, part.columns] = part.of(np.ascontiguousarray(z))
+    for level, lattice in enumerate(lattices):
+        for part in parts(grid.cells, level):
+            lattice[part.rows, part.columns] = part.of(z)
     heights = np.full(len(x), np.nan)
     for level in reversed(range(grid.levels)):
         u = (x - anchors[level, 0]) / grid.spacing(level) + grid.cells // 2

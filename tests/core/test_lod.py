@@ -17,10 +17,11 @@ def flat_positions(cells, levels, centre=(0.0, 0.0)):
     grid = Grid(1.0, cells, levels)
     positions = np.full((grid.vertex_count, 2), np.nan)
     anchors = level_anchors(grid, centre)
-    for part in parts(cells, levels):
-        x_lines, y_lines = (grid.lines(part.level) + anchor for anchor in anchors[part.level])
-        x, y = np.meshgrid(x_lines[part.rows], y_lines[part.columns], indexing="ij")
-        part.of(positions)[:] = np.stack([x, y], axis=-1)
+    for level in range(levels):
+        x_lines, y_lines = (grid.lines(level) + anchor for anchor in anchors[level])
+        for part in parts(cells, level):
+            x, y = np.meshgrid(x_lines[part.rows], y_lines[part.columns], indexing="ij")
+            part.of(positions)[:] = np.stack([x, y], axis=-1)
     return positions
 
 

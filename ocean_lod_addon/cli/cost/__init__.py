@@ -33,7 +33,7 @@ def add_arguments(parser) -> None:
     """Declare the command's arguments."""
     extent = parser.add_mutually_exclusive_group()
     extent.add_argument(
-        "--quick", action="store_true", help="knobs, configurations and budgets, under a minute (default)"
+        "--quick", action="store_true", help="knobs, configurations and budgets, about a minute (default)"
     )
     extent.add_argument(
         "--full", action="store_true", help="also predictions tried out and pictures; about ten minutes"

@@ -11,7 +11,7 @@ from ..contraction import CONTRACTIONS, PIECE_COLUMNS, PIECE_ROWS, piece_count
 from ..factors import mirrored_terms
 from ..lod import tile_edges, tile_sizes
 from ..ocean import Ocean
-from ..patches import Patches
+from ..patches import Patches, lines_in_view
 from ..ripples.bump import bump_layout
 from ..waves import WaveSet
 from ..windows import fading_waves, first_wave
@@ -160,10 +160,8 @@ def _level_waves(grid, waves):
 
 def _factor_terms(grid, waves, visible):
     """Lines times waves of all levels, from the first to the last line in view."""
-    edges, rows = np.array(tile_edges(grid.cells)), visible.any(axis=2)
-    first, past = rows.argmax(axis=1), rows.shape[1] - rows[:, ::-1].argmax(axis=1)
-    lines = np.where(rows.any(axis=1), edges[past] - edges[first], 0)
-    return np.sum(lines * _level_waves(grid, waves)[0])
+    lines = [rows.stop - rows.start for rows in lines_in_view(grid.cells, visible)]
+    return np.dot(lines, _level_waves(grid, waves)[0])
 
 
 _CACHED_TEXELS = 512
