@@ -134,7 +134,8 @@ def _product_work(grid, waves, base, contraction, widths, folded, visible, wave_
     for width in widths:
         across, along = np.ones_like(rows), np.ones_like(rows)
         if contraction == "einsum":
-            across, along = _pieces(rows, PIECE_ROWS), _pieces(width * lines, PIECE_COLUMNS)
+            across = _pieces(rows, PIECE_ROWS)
+            along = _pieces(lines, PIECE_COLUMNS // width) if folded else _pieces(width * lines, PIECE_COLUMNS)
         multiplications += width * float(np.sum(terms * rows * lines))
         runs += float(np.sum(terms * rows * along))
         products += float(np.sum(across * along))
