@@ -67,24 +67,23 @@ def visible_tiles(
     `carried.highest` up and down and `carried.orbit_ratio` times that sideways. With a finite `curved_radius` (m)
     the sea sinks with distance. A box is a product of sides in x and in y: what they add to n . x + d adds up.
     """
-    centres, halves = _sides(grid)  # (levels, tiles)
-    n, offset = planes[:, :3], planes[:, 3]
+    n, offset, tiles = planes[:, :3], planes[:, 3], tile_sizes(grid.cells, grid.levels)
     ellipsoid = np.hypot(carried.orbit_ratio * np.hypot(n[:, 0], n[:, 1]), n[:, 2])
     at_level = n[:, :2] @ anchors.T + offset[:, None] + np.outer(ellipsoid, carried.highest)  # (planes, levels)
-    x, y = (n[:, axis, None, None] * centres + np.abs(n[:, axis, None, None]) * halves for axis in range(2))
+    n = n.astype(np.float32)  # from here on places count from the anchors
+    sides = np.stack([n[:, :2], np.abs(n[:, :2])], axis=2) @ _sides(grid)
+    x, y = sides.reshape(len(n), 2, *tiles.shape[:2]).swapaxes(0, 1)  # each (planes, levels, tiles)
     if np.isfinite(curved_radius):
         off = anchors - anchors[0]
+        centres, halves = _sides(grid).reshape(2, *tiles.shape[:2])
         upside = np.maximum(-n[:, 2], 0.0)[:, None, None] / (2.0 * curved_radius)
         x += upside * (np.abs(centres + off[:, :1]) + halves) ** 2
         y += upside * (np.abs(centres + off[:, 1:]) + halves) ** 2
     x += at_level[:, :, None]
-    shifts = (n @ carried.shift.reshape(-1, 3).T).reshape(len(n), *carried.shift.shape[:-1])
-    seen = tile_sizes(grid.cells, grid.levels) > 0
-    for x_of_plane, y_of_plane, shift in zip(x, y, shifts, strict=True):
-        inwards = x_of_plane[:, :, None] + y_of_plane[:, None, :]
-        inwards[: len(shift)] += shift
-        seen &= inwards >= 0.0
-    return seen
+    inwards = x[:, :, :, None] + y[:, :, None, :]
+    shift = carried.shift
+    inwards[:, : len(shift)] += (n @ shift.reshape(-1, 3).T).reshape(len(n), *shift.shape[:-1])
+    return (inwards >= 0.0).all(axis=0) & (tiles > 0)
 
 
 def looks_down(view: CameraView, margin: float, highest: float) -> bool:
@@ -105,10 +104,11 @@ def looks_down(view: CameraView, margin: float, highest: float) -> bool:
 @functools.lru_cache(maxsize=8)
 def _sides(grid):
     """Along either axis, of tiles with the cells that join them to others: the middles, from the level's anchor,
-    and half the lengths, both (levels, tiles) m."""
+    and half the lengths, (2, levels x tiles) float32, m."""
     middles, halves = tile_sides(grid.cells)
-    spacing = grid.cell_size * np.exp2(np.arange(grid.levels))[:, None]
-    return spacing * middles, spacing * (halves + RIM)
+    spacing = grid.cell_size * np.exp2(np.arange(grid.levels))
+    sides = np.stack([np.outer(spacing, middles), np.outer(spacing, halves + RIM)])
+    return sides.reshape(2, -1).astype(np.float32)
 
 
 def nearest_visible_water(view: CameraView) -> np.ndarray:
@@ -120,9 +120,7 @@ def nearest_visible_water(view: CameraView) -> np.ndarray:
     if view.position[2] <= 0.0 or _sees_below(view):
         return below
     ahead = _border_on_water(view)
-    if not len(ahead):
-        return below
-    return below + ahead[np.argmin((ahead**2).sum(axis=1))]
+    return below + min(ahead, key=lambda point: math.hypot(*point), default=(0.0, 0.0))
 
 
 def _sees_below(view):
@@ -140,33 +138,30 @@ def _sees_below(view):
 _GRAZING = 1e-6
 """Rays that sink less than this never reach the water."""
 
-_EDGE = np.linspace(0.0, 1.0, 9)
-_BORDER = np.column_stack(
-    [
-        np.concatenate([_EDGE, _EDGE, np.zeros(9), np.ones(9)]),
-        np.concatenate([np.zeros(9), np.ones(9), _EDGE, _EDGE]),
-        np.ones(36),
-    ]
-)
-"""Places along the four edges of the frame, as shares of its width and height, and 1."""
+_EDGE = [number / 8.0 for number in range(9)]
+_BORDER = sorted({place for share in _EDGE for end in (0.0, 1.0) for place in ((share, end), (end, share))})
+"""Places along the four edges of the frame, as shares of its width and height."""
 
 
 def _border_on_water(view):
-    """Where rays through the border of the frame meet the mean water level, (hits, 2) m from below the camera."""
+    """Where rays through the border of the frame meet the mean water level: (x, y) m from below the camera.
+
+    In plain numbers: this is done in every frame, and there are few.
+    """
     left, right, bottom, top = view.extent
-    across, up, forward = view.axes
-    corner = left * across + bottom * up
-    frame = np.array([(right - left) * across, (top - bottom) * up, corner])
-    height = view.position[2]
-    if view.kind == "ORTHO":
-        if forward[2] >= -_GRAZING:
-            return np.empty((0, 2))
-        origins = _BORDER @ frame
-        return origins[:, :2] - np.outer((height + origins[:, 2]) / forward[2], forward[:2])
-    frame[2] += forward
-    rays = _BORDER @ frame
-    rays = rays[rays[:, 2] < -_GRAZING]
-    return rays[:, :2] * (height / -rays[:, 2:])
+    (across_x, across_y, across_z), (up_x, up_y, up_z), (x, y, z) = view.axes.tolist()
+    height, parallel = float(view.position[2]), view.kind == "ORTHO"
+    result = []
+    for share_across, share_up in _BORDER:
+        u, v = left + share_across * (right - left), bottom + share_up * (top - bottom)
+        aside_x, aside_y, aside_z = u * across_x + v * up_x, u * across_y + v * up_y, u * across_z + v * up_z
+        if parallel and z < -_GRAZING:
+            distance = (height + aside_z) / -z
+            result.append((aside_x + distance * x, aside_y + distance * y))
+        elif not parallel and aside_z + z < -_GRAZING:
+            distance = height / -(aside_z + z)
+            result.append((distance * (aside_x + x), distance * (aside_y + y)))
+    return result
 
 
 def plane_centre(grid: Grid, view: CameraView) -> np.ndarray:

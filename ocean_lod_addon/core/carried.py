@@ -73,14 +73,14 @@ def highest_wave(waves: WaveSet) -> float:
 def carried_at_any_time(grid: Grid, waves: WaveSet) -> Carried:
     """What may be said without a time: every wave anywhere."""
     tiles = len(tile_sides(grid.cells)[0])
-    orbit_ratio = float(waves.orbit_ratio.max(initial=0.0))
-    return Carried(np.zeros((0, tiles, tiles, 3)), np.full(grid.levels, highest_wave(waves)), orbit_ratio)
+    shift = np.zeros((0, tiles, tiles, 3), np.float32)
+    return Carried(shift, np.full(grid.levels, highest_wave(waves)), float(waves.orbit_ratio.max(initial=0.0)))
 
 
 def carried(grid: Grid, anchors: np.ndarray, waves: WaveSet, time: float) -> Carried:
     """Where the tiles of a plane at level anchors (levels, 2) m, of lod.level_anchors, are at a `time` in s."""
     carriers = _carriers(grid, waves)
-    shift = np.empty((len(carriers.levels), *carriers.unmoved.shift.shape[1:]))
+    shift = np.empty((len(carriers.levels), *carriers.unmoved.shift.shape[1:]), np.float32)
     if carriers.levels:
         at_anchors = waves.phase_at(time) + anchors[: len(carriers.levels)] @ carriers.wave_vectors
         phasors = waves.amplitude.astype(np.float32) * _phasors(np.mod(at_anchors, 2.0 * np.pi))

@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -99,12 +100,24 @@ class MirroredProduct:
         )
 
 
+class CallCost(NamedTuple):
+    """What a product takes besides its multiplications, as multiplications that take as long.
+
+    rows   the right factor is rearranged at each call, in the time that so many rows of the left one take
+    terms  all else, in sums of so many terms
+    """
+
+    rows: int
+    terms: float
+
+
 @dataclass(frozen=True, eq=False)
 class Contraction:
     """A way to multiply: `multiply` a list of products, `mirrored` where it wants MirroredProducts."""
 
     multiply: Callable[[list], None]
     mirrored: bool
+    call: CallCost
 
 
 def multiply_with_blas(products) -> None:
@@ -243,8 +256,8 @@ def small_buffers():
 
 
 CONTRACTIONS = {
-    "matmul": Contraction(multiply_with_blas, mirrored=False),
-    "einsum": Contraction(multiply_without_blas, mirrored=True),
+    "matmul": Contraction(multiply_with_blas, mirrored=False, call=CallCost(8, 2e5)),
+    "einsum": Contraction(multiply_without_blas, mirrored=True, call=CallCost(0, 1e5)),
 }
 """The ways there are; both give the same result up to float32 rounding."""
 

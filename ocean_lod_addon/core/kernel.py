@@ -96,10 +96,12 @@ class FrameKernel:
         self._levels = [
             Level(grid, number, waves, self._order, curved_earth, mirrored) for number in range(grid.levels)
         ]
-        self._patches = Patches(grid, waves.wavelength)
-        self._folded_patches = Patches(grid, waves.wavelength, folded=True) if mirrored else None
+        call = self._contraction.call
+        self._patches = Patches(grid, waves.wavelength, call)
+        self._folded_patches = Patches(grid, waves.wavelength, call, folded=True) if mirrored else None
         self._everywhere = tile_sizes(grid.cells, grid.levels) > 0
         self._last_products = {}
+        self._anchors_placed, self._kept_at_anchors = None, None
 
     @property
     def vertex_count(self) -> int:
@@ -142,15 +144,21 @@ class FrameKernel:
 
     def fill_factors(self, time: float, anchors: np.ndarray, blocks=(POSITION,), visible=None) -> None:
         """Form the factors at `time`, for visible tiles: per line and wave one complex multiplication."""
-        at_anchors = self._waves.phase_at(time) + anchors @ self._wave_vectors
-        phasors = np.empty(at_anchors.shape, np.complex64)  # (levels, waves)
-        phasors.real = self._waves.amplitude * np.cos(at_anchors)
-        phasors.imag = self._waves.amplitude * np.sin(at_anchors)
-        phasors = phasors[:, self._order]
+        phase = self._waves.phase_at(time)
+        at_origin = self._waves.amplitude * (np.cos(phase) + 1j * np.sin(phase))
+        phasors = (at_origin * self._at_anchors(anchors))[:, self._order].astype(np.complex64)  # (levels, waves)
         lines = lines_in_view(self._grid.cells, self._everywhere if visible is None else visible)
         with small_buffers():
             for level, phasor, rows in zip(self._levels, phasors, lines, strict=True):
                 level.fill(phasor, anchors, blocks, rows)
+
+    def _at_anchors(self, anchors):
+        """exp(i k . anchor) of all waves, (levels, waves), kept until the anchors move."""
+        placed = anchors.tobytes()
+        if placed != self._anchors_placed:
+            phase = anchors @ self._wave_vectors
+            self._anchors_placed, self._kept_at_anchors = placed, np.cos(phase) + 1j * np.sin(phase)
+        return self._kept_at_anchors
 
     def products(
         self, out: np.ndarray, visible=None, wave_limit: int | None = None, block: ColumnBlock = POSITION

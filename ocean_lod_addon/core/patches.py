@@ -2,14 +2,15 @@
 """Which rectangles of the plane a frame evaluates, each with as many waves as reach it: one matrix product each.
 
 Tiles in view are put together: a rectangle takes a row of them from the first to the last, and goes on to the next
-row as long as it grows by little that is not in view, or has fewer waves than it is given. Large products run
-closer to the processor's speed.
+row as long as that costs less than another product, by what is multiplied though it is not in view, or has fewer
+waves than it is given.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from .contraction import CallCost
 from .lod import Grid, tile_edges, tile_sizes
 from .windows import nearest_vertex, window_reach
 
@@ -44,10 +45,6 @@ def wave_counts(grid: Grid, wavelength) -> np.ndarray:
     return np.where(tile_sizes(grid.cells, grid.levels) > 0, counts, 0)
 
 
-_WASTE = 0.15
-"""A patch grows by another row of tiles if that adds no more than this share to the multiplications it needs."""
-
-
 def lines_in_view(cells: int, visible: np.ndarray) -> list[slice]:
     """For each level its lines from the first to the last row of tiles that has visible ones (a flag for each)."""
     edges, rows = tile_edges(cells), visible.any(axis=2)
@@ -59,10 +56,10 @@ def lines_in_view(cells: int, visible: np.ndarray) -> list[slice]:
 class Patches:
     """What puts the tiles of one plane together, with the waves that reach each."""
 
-    def __init__(self, grid: Grid, wavelength, folded: bool = False):
+    def __init__(self, grid: Grid, wavelength, call: CallCost, folded: bool = False):
         """`folded` puts together tiles of the upper half of the plane, each with its mirror image."""
         edges = tile_edges(grid.cells)
-        self._tiles, self._folded = len(edges) - 1, folded
+        self._tiles, self._call, self._folded = len(edges) - 1, call, folded
         first = self._tiles // 2 if folded else 0
         self._middle = self._tiles // 2, self._tiles // 2 - first
         self._counts = wave_counts(grid, wavelength)[:, :, first:]
@@ -105,29 +102,31 @@ class Patches:
 
         In plain numbers, as this is done anew whenever the view has changed.
         """
+        if not flags.any():
+            return []
         counts, row_edges, column_edges = self._lists
         middle_row, middle_column = self._middle
-        hole_edges = _hole_rows(self._tiles)
+        hole_edges, (rows_of_call, terms_of_call) = _hole_rows(self._tiles), self._call
         result = []
-        at, bottom, top, first, past, count, needed = -1, 0, 0, 0, 0, 0, 0  # the patch that grows
-        for level, row, start, stop, waves, more in self._rows_in_view(flags, most):
+        at, bottom, top, first, past, count, cost = -1, 0, 0, 0, 0, 0, 0  # the patch that grows
+        for level, row, start, stop, waves, cost_of_row in self._rows_in_view(flags, most):
             if level == at and row == top and not (level and row in hole_edges):
                 low, high = min(first, start), max(past, stop)
                 nearest = counts[level][min(max(middle_row, bottom), row)]
                 most_there = min(nearest[min(max(middle_column, low), high - 1)], most)
-                area = (row_edges[row + 1] - row_edges[bottom]) * (column_edges[high] - column_edges[low])
-                if area * (2 * most_there + 2) <= (1.0 + _WASTE) * (needed + more):
-                    top, first, past, count, needed = row + 1, low, high, most_there, needed + more
+                rows = row_edges[row + 1] - row_edges[bottom] + rows_of_call
+                grown = rows * (column_edges[high] - column_edges[low]) * (2 * most_there + 2)
+                if grown <= cost + cost_of_row + terms_of_call:
+                    top, first, past, count, cost = row + 1, low, high, most_there, grown
                     continue
             if top:
                 result.append(Patch(at, bottom, top, first, past, count))
-            at, bottom, top, first, past, count, needed = level, row, row + 1, start, stop, waves, more
-        if top:
-            result.append(Patch(at, bottom, top, first, past, count))
+            at, bottom, top, first, past, count, cost = level, row, row + 1, start, stop, waves, cost_of_row
+        result.append(Patch(at, bottom, top, first, past, count))
         return result
 
     def _rows_in_view(self, flags, most):
-        """Of rows with visible tiles: level, row, first, past the last, waves and multiplications of each.
+        """Of rows with visible tiles: level, row, first, past the last, waves and cost of a product of each.
 
         The waves of a row are those of its tile next to the middle of the plane, where most waves are.
         """
@@ -135,8 +134,9 @@ class Patches:
         level, row = np.nonzero(some)
         first, past = flags.argmax(axis=2)[some], flags.shape[2] - flags[:, :, ::-1].argmax(axis=2)[some]
         waves = np.minimum(self._counts[level, row, np.clip(self._middle[1], first, past - 1)], most)
-        area = self._heights[row] * (self._column_edges[past] - self._column_edges[first])
-        numbers = level, row, first, past, waves, area * (2 * waves + 2)
+        lines = self._column_edges[past] - self._column_edges[first]
+        cost = (self._heights[row] + self._call.rows) * lines * (2 * waves + 2)
+        numbers = level, row, first, past, waves, cost
         return zip(*(each.tolist() for each in numbers), strict=True)
 
 

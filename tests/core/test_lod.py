@@ -48,6 +48,19 @@ def test_tiles_mirror_each_other_about_the_middle_line(cells):
     assert (edges[middle // 2], edges[3 * middle // 2]) == (cells // 4, 3 * cells // 4 + 1)
 
 
+@pytest.mark.parametrize("cells", [64, 200, 256, 520, 1000, 2048])
+def test_tiles_have_as_many_lines_as_a_blas_likes(cells):
+    """A multiple of 8, but for the innermost of each quarter, which has what is left: no less than half a tile."""
+    lengths = np.diff(tile_edges(cells))
+    quarter = len(lengths) // 4
+    common = lengths[0]
+    assert common % 8 == 0
+    for outwards in (lengths[: 2 * quarter][::-1], lengths[2 * quarter :]):
+        for innermost, *others in outwards.reshape(2, quarter):
+            assert set(others) <= {common}
+            assert common / 2 <= innermost <= 1.5 * common + 1
+
+
 @pytest.mark.parametrize(
     ("rows", "columns"),
     [((0, 20), (0, 65)), ((16, 20), (0, 17)), ((16, 20), (40, 49)), ((40, 65), (49, 65)), ((20, 21), (10, 60))],

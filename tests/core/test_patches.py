@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tiles in view are put together to rectangles: none is left out, each has its waves, and little is added."""
+"""Tiles in view are put together to rectangles: none is left out, each has its waves, and it costs less."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ocean_lod_addon.core.contraction import CallCost
 from ocean_lod_addon.core.lod import Grid, rectangle, tile_edges, tile_sizes
 from ocean_lod_addon.core.patches import Patches, exact_patches, wave_counts
 from ocean_lod_addon.core.windows import window, window_reach
@@ -16,6 +17,7 @@ GRID = Grid(cell_size=0.25, cells=256, levels=5)
 WAVELENGTH = GRID.shortest_wavelength * np.exp2(np.linspace(0.0, 6.0, 60))
 SIZES = tile_sizes(GRID.cells, GRID.levels)
 EDGES = np.array(tile_edges(GRID.cells))
+CALL = CallCost(8, 2e5)
 
 
 def some_tiles(seed, share):
@@ -57,7 +59,7 @@ def vertices_of(flags):
 
 @given(views)
 def test_patches_cover_what_is_visible_and_say_what_they_cover(visible):
-    patches = Patches(GRID, WAVELENGTH)
+    patches = Patches(GRID, WAVELENGTH, CALL)
     found = patches.of(visible)
     covered = patches.covered(found)
     assert not (visible & ~covered).any()
@@ -66,7 +68,7 @@ def test_patches_cover_what_is_visible_and_say_what_they_cover(visible):
 
 @given(views)
 def test_folded_patches_cover_what_is_visible_in_both_halves(visible):
-    patches = Patches(GRID, WAVELENGTH, folded=True)
+    patches = Patches(GRID, WAVELENGTH, CALL, folded=True)
     found = patches.of(visible)
     covered = patches.covered(found)
     assert not (visible & ~covered).any()
@@ -90,23 +92,45 @@ def test_exact_patches_cover_just_these_tiles_once(flags):
 
 @pytest.mark.parametrize("heading", [0.0, 0.4, 1.5, 3.0, -2.0])
 @pytest.mark.parametrize("folded", [False, True])
-def test_little_is_multiplied_that_is_not_in_view(heading, folded):
-    """A row of a wedge is a run of tiles: a patch adds at most its 15 % to what such rows need."""
-    patches = Patches(GRID, WAVELENGTH, folded)
+@pytest.mark.parametrize("call", [CallCost(0, 0.0), CallCost(8, 0.0), CallCost(0, 1e5), CallCost(8, 2e5)])
+def test_putting_rows_together_costs_no_more_than_one_by_one(call, heading, folded):
+    """A row of a wedge is a run of tiles. Where calls cost nothing, nothing else is multiplied."""
+    patches = Patches(GRID, WAVELENGTH, call, folded)
     visible = wedge(heading, 0.6)
     middle = len(EDGES) // 2 if folded else 0
     wanted = visible[:, :, middle:] | (visible[:, :, middle - 1 :: -1] if folded else False)
     counts = wave_counts(GRID, WAVELENGTH)[:, :, middle:]
-    needed = 0
+    rows, needed, one_by_one = 0, 0, 0.0
     for level, row in np.argwhere(wanted.any(axis=2)):
-        waves = counts[level, row][wanted[level, row]].max()
-        needed += SIZES[0, row, middle:][wanted[level, row]].sum() * (2 * waves + 2)
-    taken = 0
-    for patch in patches.of(visible):
-        rows = EDGES[patch.row_stop] - EDGES[patch.row_start]
+        for part in _beside_hole(wanted[level, row], level, row, folded):
+            lines = np.diff(EDGES)[middle:][part].sum()
+            terms = 2 * counts[level, row][part].max() + 2
+            rows += 1
+            needed += np.diff(EDGES)[row] * lines * terms
+            one_by_one += (np.diff(EDGES)[row] + call.rows) * lines * terms + call.terms
+    taken, together = 0, 0.0
+    found = patches.of(visible)
+    for patch in found:
+        height = EDGES[patch.row_stop] - EDGES[patch.row_start]
         lines = EDGES[middle + patch.column_stop] - EDGES[middle + patch.column_start]
-        taken += rows * lines * (2 * patch.wave_count + 2)
-    assert needed <= taken <= 1.15 * needed
+        terms = 2 * patch.wave_count + 2
+        taken += height * lines * terms
+        together += (height + call.rows) * lines * terms + call.terms
+    assert needed <= taken
+    assert together <= one_by_one
+    if call == CallCost(0, 0.0):
+        assert taken == needed
+    else:
+        assert len(found) < rows
+
+
+def _beside_hole(flags, level, row, folded):
+    """The tiles of a row, as one run or, beside a level's hole on a plane that is not folded, as two."""
+    tiles_in_all = len(EDGES) - 1
+    past_hole = np.arange(len(flags)) >= 3 * tiles_in_all // 4
+    if folded or not level or not tiles_in_all // 4 <= row < 3 * tiles_in_all // 4:
+        return [flags]
+    return [part for part in (flags & ~past_hole, flags & past_hole) if part.any()]
 
 
 @given(views, st.integers(0, 10))
@@ -114,7 +138,7 @@ def test_a_patch_has_all_waves_that_reach_it_up_to_the_limit(visible, limit):
     """Straight from the windows, at each of its vertices, however far the level's anchor is from the windows'
     centres: half a cell of either, and a cell of the level is more."""
     reach = np.sort(window_reach(GRID, WAVELENGTH))
-    for patch in Patches(GRID, WAVELENGTH).of(visible):
+    for patch in Patches(GRID, WAVELENGTH, CALL).of(visible):
         lines = np.abs(GRID.lines(patch.level))
         rows = lines[EDGES[patch.row_start] : EDGES[patch.row_stop]].min()
         columns = lines[EDGES[patch.column_start] : EDGES[patch.column_stop]].min()
@@ -122,7 +146,7 @@ def test_a_patch_has_all_waves_that_reach_it_up_to_the_limit(visible, limit):
         if patch.level:
             nearest = max(nearest, GRID.lines(patch.level)[3 * GRID.cells // 4 + 1] - GRID.spacing(patch.level))
         assert not window(nearest, reach[: len(reach) - patch.wave_count]).any()
-    for patch in Patches(GRID, WAVELENGTH).of(visible, limit):
+    for patch in Patches(GRID, WAVELENGTH, CALL).of(visible, limit):
         assert patch.wave_count <= limit
 
 

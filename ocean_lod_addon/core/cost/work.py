@@ -117,7 +117,7 @@ class _ProductWork:
 
 def _product_work(grid, waves, base, contraction, widths, folded, visible, wave_limit):
     """Of blocks with so many columns each, on a plane that is folded about its middle line or not."""
-    patches = _patches(grid, waves, folded).of(visible, wave_limit) if widths else []
+    patches = _patches(grid, waves, contraction, folded).of(visible, wave_limit) if widths else []
     if not patches:
         return _ProductWork(0.0, 0.0, 0.0, 0.0)
     level, row, row_stop, column, column_stop, count, own, image = np.array(patches, int).T
@@ -147,8 +147,8 @@ def _pieces(lengths, size):
 
 
 @functools.lru_cache(maxsize=32)
-def _patches(grid, waves, folded):
-    return Patches(grid, waves.wavelength, folded)
+def _patches(grid, waves, contraction, folded):
+    return Patches(grid, waves.wavelength, CONTRACTIONS[contraction].call, folded)
 
 
 def _level_waves(grid, waves):
