@@ -135,9 +135,7 @@ def _batches(products):
     """The pieces of some products in lists of about equal work, as many for each core; or one, of little work."""
     pieces = [piece for product in products for piece in product.pieces]
     operations = sum(piece.operations for piece in pieces)
-    count = piece_count(operations, WORTH_A_THREAD)
-    if count > 1:
-        count += -count % _core_count()
+    count = _for_each_core(piece_count(operations, WORTH_A_THREAD))
     result, done = [[] for _ in range(count)], 0.0
     for piece in pieces:
         result[min(int(count * (done + 0.5 * piece.operations) / operations), count - 1)].append(piece)
@@ -150,14 +148,17 @@ WORTH_A_THREAD = 3e7
 and fro costs more than half a millisecond."""
 
 PIECE_ROWS, PIECE_COLUMNS = 64, 3072
-"""A piece of a product for one thread, about. For each row of `left`, einsum runs through all of `right`: whole rows
-of that follow each other in memory, parts of rows do not, which takes a fifth longer. Rows of more columns push the
-row that they add to out of the cache."""
+"""A piece of a product for one thread, about. For each row of `left`, einsum runs through all of `right`: whole
+rows of that follow each other in memory, parts of rows do not, which takes a fifth longer. Rows of more columns
+push the row that they add to out of the cache."""
 
 
 def _even_slices(length, size):
     """Equal slices of range(length), about `size` long: no remainder is left that is too short to be fast."""
-    count = piece_count(length, size)
+    return _slices(length, piece_count(length, size))
+
+
+def _slices(length, count):
     cuts = [length * number // count for number in range(count + 1)]
     return [slice(start, stop) for start, stop in itertools.pairwise(cuts)]
 
@@ -230,6 +231,20 @@ def in_threads(work: Callable[[object], object], pieces) -> None:
         return
     for _ in _threads().map(work, pieces):
         pass
+
+
+def shares(vertices: int) -> list[slice]:
+    """Equal parts of so many vertices for `in_threads`, as many for each core; or all, if they are few."""
+    return _slices(vertices, _for_each_core(max(1, -(-vertices // _MOST_VERTICES))))
+
+
+_MOST_VERTICES = 1 << 17
+"""In a thread's turn. Of less work, threads spend their time on waiting for the interpreter."""
+
+
+def _for_each_core(count):
+    """At least so many pieces, as many for each core; or 1, which needs no other."""
+    return count if count <= 1 else count + -count % _core_count()
 
 
 def _core_count():

@@ -3,17 +3,13 @@
 
 import numpy as np
 
-from .contraction import in_threads
+from .contraction import in_threads, shares
 from .gerstner import UPWARD
-
-_CHUNK = 1 << 16
-"""Vertices of one thread's turn: with fewer, threads spend their time on waiting for the interpreter."""
 
 
 def surface_normals(tangents: np.ndarray, out: np.ndarray) -> None:
     """Write unit normals into `out`, (vertices, 3) float32, from column_blocks.TANGENTS, (vertices, 5) float32."""
-    chunks = [slice(start, start + _CHUNK) for start in range(0, len(tangents), _CHUNK)]
-    in_threads(lambda chunk: _normals(tangents[chunk], out[chunk]), chunks)
+    in_threads(lambda share: _normals(tangents[share], out[share]), shares(len(tangents)))
 
 
 def _normals(tangents, out):

@@ -33,6 +33,17 @@ def test_little_work_stays_in_one_batch_and_much_is_shared_evenly():
     assert max(operations) - min(operations) <= 2.0 * largest_piece
 
 
+@pytest.mark.parametrize("vertices", [0, 1, 1000, 1 << 17, (1 << 17) + 1, 1_000_003])
+def test_shares_are_all_vertices_once_and_as_many_for_each_core(vertices):
+    shares = contraction.shares(vertices)
+    covered = np.concatenate([np.arange(vertices)[share] for share in shares])
+    assert (covered == np.arange(vertices)).all()
+    lengths = [share.stop - share.start for share in shares]
+    assert max(lengths) - min(lengths) <= 1
+    assert max(lengths) <= 1 << 17
+    assert len(shares) == 1 if vertices <= 1 << 17 else len(shares) % os.cpu_count() == 0
+
+
 def test_no_product_is_no_work():
     contraction.multiply_without_blas([])
 

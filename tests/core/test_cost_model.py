@@ -103,7 +103,7 @@ def test_work_of_ripples():
 def test_prices_that_made_the_times_are_found():
     random = np.random.Generator(np.random.PCG64(1))
     works = [
-        dataclasses.replace(NOTHING, multiplications=m, runs=r, floats=f, products=p)
+        dataclasses.replace(NOTHING, multiplications=m, passes=r, floats=f, products=p)
         for m, r, f, p in random.uniform(1.0, 100.0, (12, 4))
     ]
     true = (3e-3, 0.0, 2e-2, 5e-1)
@@ -113,7 +113,7 @@ def test_prices_that_made_the_times_are_found():
 
 def test_no_price_is_negative():
     # Times that fall with the work: the best fit without negative prices is a constant.
-    works = [dataclasses.replace(NOTHING, factor_terms=float(terms)) for terms in (1, 2, 3)]
+    works = [dataclasses.replace(NOTHING, levels=1.0, factor_terms=float(terms)) for terms in (1, 2, 3)]
     constant, each = fit_prices("factors", works, [3.0, 2.0, 1.0])
     assert each == 0.0
     assert constant > 0.0
@@ -125,11 +125,12 @@ def test_work_that_never_occurs_has_no_price():
 
 
 def test_a_prediction_is_the_sum_of_its_stages():
-    prices = CostModel({"normals": (0.5, 0.25), "write": (1.0, 2.0)})
+    prices = CostModel({"normals": (0.5, 0.25, 0.125), "write": (1.0, 2.0)})
     work = dataclasses.replace(NOTHING, normals=8.0, vertices=8.0, vectors=2.0)
     assert prices.predict(work) == {"normals": 0.5 + 2.0, "write": 2.0 + 32.0}
     assert prices.total(work) == 36.5
-    assert CostModel({"normals": (0.5, 0.25)}).total(NOTHING) == 0.0
+    assert prices.total(dataclasses.replace(work, shared=1.0)) == 35.5
+    assert CostModel({"normals": (0.5, 0.25, 0.125)}).total(NOTHING) == 0.0
 
 
 def test_a_probe_prices_every_stage_without_blender():
@@ -241,7 +242,7 @@ def test_planned_work_is_that_of_the_plan():
     assert planned_work(facts, without, None).floats == 3 * Grid(cells=64, levels=3).vertex_count
     foamless = dataclasses.replace(settings(cells=64, levels=3), effects=Effects(foam="off"))
     bare = planned_work(facts, foamless, None)
-    assert (bare.foam_multiplications, bare.foam_floats, bare.foam_vertices, bare.vectors) == (0.0, 0.0, 0.0, 2.0)
+    assert (bare.foam_multiplications, bare.foam_floats, bare.foam_instants, bare.vectors) == (0.0, 0.0, 0.0, 2.0)
 
 
 def test_stages_have_names_for_people():

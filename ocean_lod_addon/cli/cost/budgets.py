@@ -14,7 +14,6 @@ from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
 from ..bench import in_blender
-from ..bench.timing import one_after_another
 from . import frames
 
 BUDGETS = (5e-3, 20e-3, 100e-3)
@@ -66,15 +65,15 @@ def try_budget(find: Callable[[], CostModel], budget: float, attempts: int, with
 def _try_choice(choice, with_blender):
     settings = apply(choice.rung.quality, SIZED)
     if not with_blender:
-        return BudgetResult(choice, _median(frames.NumpyFrame(settings, None).contestant("frame")))
+        return BudgetResult(choice, _median(frames.NumpyFrame(settings, None)))
     with in_blender.fresh_data():
-        return BudgetResult(choice, _median(frames.BlenderOcean.of(settings).contestant("frame")))
+        return BudgetResult(choice, _median(frames.BlenderOcean.of(settings)))
 
 
-def _median(contestant):
-    run, taken = one_after_another(contestant), []
-    for _ in range(FRAMES + 1):
+def _median(ocean):
+    run, taken = frames.later_frames(ocean), []
+    for _ in range(FRAMES):
         start = time.perf_counter()
         run()
         taken.append(time.perf_counter() - start)
-    return float(np.median(taken[1:]))  # the first frame writes what is static
+    return float(np.median(taken))

@@ -8,7 +8,6 @@ from ...core.cost.model import CostModel
 from ...core.cost.quality import QUALITIES, Quality, apply, ladder
 from ...core.ripple_settings import Ripples
 from ..bench import in_blender
-from ..bench.timing import measure
 from . import frames
 from .budgets import SIZED
 from .knobs.geometry import MILLIMETRES, mesh_height_error
@@ -23,7 +22,7 @@ class ConfigurationResult:
     height       rms height of the mesh between its vertices, mm
     ripples      share of the ripples' slope variance shown wrongly or not at all, %
     predicted    ms of a frame
-    measured     ms, median
+    measured     ms, or None where it was not measured
     picture      difference from the Reference's picture, or None where none was rendered
     """
 
@@ -38,7 +37,7 @@ class ConfigurationResult:
     height: float
     ripples: float
     predicted: float
-    measured: float
+    measured: float | None
     picture: PictureDifference | None
 
     def as_mapping(self) -> dict:
@@ -66,16 +65,19 @@ def settings_of_quality(name: str):
 
 
 def measure_configurations(
-    find: Callable[[], CostModel], rounds: int, with_blender: bool
+    find: Callable[[], CostModel], longest: float, with_blender: bool
 ) -> list[ConfigurationResult]:
-    """All qualities, without their pictures; prices are found anew for each by `find`."""
-    return [_measure(name, quality, find, rounds, with_blender) for name, quality in QUALITIES.items()]
+    """All qualities, without their pictures; prices are found anew for each by `find`.
+
+    Those whose frames are predicted to take more than `longest` s are not measured.
+    """
+    return [_measure(name, quality, find, longest, with_blender) for name, quality in QUALITIES.items()]
 
 
-def _measure(name, quality, find, rounds, with_blender):
+def _measure(name, quality, find, longest, with_blender):
     settings = apply(quality, SIZED)
     predicted = find().total(frames.work(settings))
-    measured = _seconds(settings, rounds, with_blender)
+    measured = 1e3 * _seconds(settings, with_blender) if predicted <= longest else None
     return ConfigurationResult(
         name,
         quality.label,
@@ -88,7 +90,7 @@ def _measure(name, quality, find, rounds, with_blender):
         height_error(quality),
         _ripples_wrong(quality),
         1e3 * predicted,
-        1e3 * measured,
+        measured,
         None,
     )
 
@@ -105,12 +107,11 @@ def _ripples_wrong(quality):
     return ripple_error(replace(SIZED.ripples, resolution=quality.ripples))
 
 
-def _seconds(settings, rounds, with_blender):
+def _seconds(settings, with_blender):
     if with_blender:
         with in_blender.fresh_data():
-            contestant = frames.BlenderOcean.of(settings).contestant("frame")
-            return measure([contestant], rounds)["frame"].median()
-    return measure([frames.NumpyFrame(settings, None).contestant("frame")], rounds)["frame"].median()
+            return frames.seconds(frames.later_frames(frames.BlenderOcean.of(settings)))
+    return frames.seconds(frames.later_frames(frames.NumpyFrame(settings, None)))
 
 
 @dataclass(frozen=True)

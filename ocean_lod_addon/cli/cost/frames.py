@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Frames of whole configurations, to be timed: by NumPy alone, or through the handler that Blender calls."""
 
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...core.column_blocks import POSITION, TANGENTS
 from ...core.cost.planned import planned_work
+from ...core.cost.probe import typical
 from ...core.cost.work import Work
 from ...core.discretise import discretise
 from ...core.effects import Effects
@@ -19,7 +22,7 @@ from ...core.ocean import Ocean, Surface
 from ...core.plan import Facts, Settings, decide, effective
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
-from ..bench.timing import FRAMES_PER_SECOND, Contestant
+from ..bench.timing import FRAMES_PER_SECOND, Contestant, one_after_another
 
 IN_VIEWPORT = Facts(engine="CYCLES", final=False)
 """What is timed: a frame of the viewport, where the whole plane moves, without a camera."""
@@ -118,3 +121,24 @@ class BlenderOcean:
     def evaluate(self, _time: float = 0.0) -> None:
         """Let Blender evaluate what has changed."""
         self.scene.view_layers[0].update()
+
+
+def later_frames(ocean: NumpyFrame | BlenderOcean) -> Callable[[], None]:
+    """A function that makes frame after frame; the first one, which writes what is static, has been made."""
+    run = one_after_another(ocean.contestant("frame"))
+    run()
+    return run
+
+
+_FRAMES, _SECONDS = 5, 0.3
+"""Frames that are measured, and seconds that they take together, at least."""
+
+
+def seconds(run: Callable[[], None]) -> float:
+    """What a frame takes, reckoned as the probe does it."""
+    taken = []
+    while len(taken) < _FRAMES or sum(taken) < _SECONDS:
+        start = time.perf_counter()
+        run()
+        taken.append(time.perf_counter() - start)
+    return typical(taken)

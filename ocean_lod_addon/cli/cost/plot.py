@@ -81,11 +81,12 @@ def _draw_front(axes, results):
         label="the ladder, predicted",
     )
     for configuration in results.configurations:
-        axes.plot(configuration.measured, configuration.samples, "o", color=_MEASURED)
+        if configuration.measured is not None:
+            axes.plot(configuration.measured, configuration.samples, "o", color=_MEASURED)
         axes.annotate(
             f"{configuration.label}: {configuration.height:.2g} mm, "
             f"{configuration.ripples:.2g} % of ripples wrong",
-            (configuration.measured, configuration.samples),
+            (configuration.measured or configuration.predicted, configuration.samples),
             textcoords="offset points",
             xytext=(8, -10),
             fontsize=8,

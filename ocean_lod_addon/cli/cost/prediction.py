@@ -6,18 +6,15 @@ shows only beside times that were measured when its prices were: so both are don
 middle counts.
 """
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from ...core.cost.model import CostModel
-from ...core.cost.probe import typical
 from ...core.foam_settings import Foam
 from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
 from ..bench import in_blender
-from ..bench.timing import one_after_another
 from . import frames
 
 LIMIT = 0.20
@@ -61,9 +58,6 @@ _TURNS = 3
 _AGREEMENT = 0.1
 """Turns whose predictions are off by shares further apart than this are followed by as many more, less one."""
 
-_FRAMES, _SECONDS = 5, 0.3
-"""Frames that are measured in a turn, and seconds that they take together, at least."""
-
 
 @dataclass(frozen=True)
 class Prediction:
@@ -103,11 +97,10 @@ def _try_case(find, contraction, with_blender, grid, waves, ripples, instants):
     work = frames.work(settings, contraction)
 
     def in_turns(ocean):
-        run = one_after_another(ocean.contestant(name))
-        run()  # the first frame writes what is static
+        run = frames.later_frames(ocean)
 
         def turn():
-            return Prediction(name, find().total(work), _frame_seconds(run))
+            return Prediction(name, find().total(work), frames.seconds(run))
 
         turns = [turn() for _ in range(_TURNS)]
         if not agree(turns):
@@ -130,16 +123,6 @@ def middle(predictions: list[Prediction]) -> Prediction:
     """The one of an odd number that as many exceed as fall short of."""
     in_order = sorted(predictions, key=lambda one: one.off_by)
     return in_order[len(in_order) // 2]
-
-
-def _frame_seconds(run):
-    """What a frame takes, reckoned as the probe does it."""
-    taken = []
-    while len(taken) < _FRAMES or sum(taken) < _SECONDS:
-        start = time.perf_counter()
-        run()
-        taken.append(time.perf_counter() - start)
-    return typical(taken)
 
 
 def _text(ripples):

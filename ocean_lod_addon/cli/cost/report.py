@@ -58,7 +58,7 @@ def configuration_lines(results: list[ConfigurationResult]) -> list[str]:
         lines.append(
             f"  {each.label:10}{each.vertices:>9}{each.samples:>9g}{each.reach:>6g}{each.texels:>8}"
             f"{each.instants:>5}{each.height:>7.2f}{each.ripples:>8.2f}{steps[0]:>7}{steps[1]:>7}"
-            f"{each.predicted:>7.1f} ms{each.measured:>6.1f} ms"
+            f"{each.predicted:>7.1f} ms{'-' if each.measured is None else f'{each.measured:.1f} ms':>9}"
         )
     return lines
 

@@ -25,21 +25,26 @@ class Stage:
     counts: Callable[[Work], tuple[float, ...]]
 
 
+def _by_cores(work, count):
+    """What one core does, and what all share, which has a price of its own: together they wait for the memory."""
+    return (1.0 - work.shared) * count, work.shared * count
+
+
 STAGES: dict[str, Stage] = {
     "setup": Stage("Plan", lambda work: (1.0,)),
-    "factors": Stage("Wave factors", lambda work: (1.0, work.factor_terms)),
-    "products": Stage("Wave products", lambda work: (work.multiplications, work.runs, work.floats, work.products)),
-    "normals": Stage("Normals", lambda work: (float(work.normals > 0.0), work.normals)),
+    "factors": Stage("Wave factors", lambda work: (work.levels, work.factor_terms)),
+    "products": Stage(
+        "Wave products", lambda work: (work.multiplications, work.passes, work.floats, work.products)
+    ),
+    "normals": Stage("Normals", lambda work: (float(work.normals > 0.0), *_by_cores(work, work.normals))),
     "foam_products": Stage(
         "Foam products",
-        lambda work: (
-            work.foam_multiplications,
-            work.foam_runs,
-            work.foam_floats if work.foam_products else 0.0,
-            work.foam_products,
-        ),
+        lambda work: (work.foam_multiplications, work.foam_passes, work.foam_floats, work.foam_products),
     ),
-    "foam": Stage("Foam", lambda work: (float(work.foam_vertices > 0.0), work.foam_floats, work.foam_vertices)),
+    "foam": Stage(
+        "Foam",
+        lambda work: (float(work.foam_instants > 0.0), *_by_cores(work, work.foam_instants), work.foam_lines),
+    ),
     "write": Stage("Write mesh", lambda work: (work.vectors, work.vectors * work.vertices)),
     "ripples": Stage("Ripples", lambda work: (work.images, work.texels, work.far_texels)),
     "blender": Stage(

@@ -21,43 +21,30 @@ from ..ripples.spectrum import ripple_spectrum
 from ..ripples.synthesis import tile_syntheses
 from ..sea import Sea
 from .model import CostModel, fit_prices
-from .work import Work, ripple_work, work_of
+from .work import Work, is_shared, ripple_work, work_of
 
 _BOTH = (POSITION, TANGENTS)
 _PLANES = (
-    (96, 11, 48, _BOTH),
-    (96, 8, 96, _BOTH),
-    (200, 8, 16, _BOTH),
-    (128, 8, 224, (POSITION,)),
-    (192, 8, 160, _BOTH),
-    (256, 8, 64, _BOTH),
-    (320, 8, 128, (POSITION,)),
-    (512, 1, 24, (POSITION,)),
-    (384, 1, 192, _BOTH),
+    (96, 11, 48, _BOTH, 16),
+    (128, 8, 224, (POSITION,), 8),
+    (424, 5, 28, _BOTH, 2),
+    (256, 6, 96, (POSITION,), 16),
+    (320, 8, 128, (POSITION,), 4),
+    (360, 5, 56, _BOTH, 8),
+    (384, 1, 192, _BOTH, 4),
 )
-"""(cells, levels, waves, columns): together they tell the prices of arithmetic, of memory and of calls apart. All
-are large enough for threads: smaller frames, which one thread makes, nobody waits for."""
+"""(cells, levels, waves, columns, instants of foam): together they tell the prices of arithmetic, of memory and of
+calls apart. All are large enough for threads: smaller frames, which one thread makes, nobody waits for."""
 
 _ROUNDS = 7
-_PATIENCE, _LEAST = 0.04, 3
+_PATIENCE, _LEAST = 0.02, 3
 """s, rounds; what has taken this long in all sits out the rounds that are left after this many."""
 
 _FRAME = 1.0 / 24.0
 
 _RIPPLES = tuple(Ripples(resolution=texels) for texels in ("256", "512", "1024"))
 _NO_RIPPLES = Ripples(kind="off")
-_FOAM = (
-    (72, 12, 64, 8),
-    (112, 8, 64, 4),
-    (80, 8, 48, 16),
-    (264, 3, 128, 16),
-    (160, 6, 160, 8),
-    (224, 6, 64, 4),
-    (256, 8, 32, 1),
-)
-"""(cells, levels, waves, instants)"""
-
-_NORMALS = (1 << 13, 1 << 17)
+_NORMALS = (1 << 14, 1 << 17, 3 << 17, 7 << 17)
 
 _NOTHING = Work(*[0.0] * len(fields(Work)))
 
@@ -99,13 +86,12 @@ def surface_cases(contraction: str | None = None) -> dict[str, list]:
     """What tells the prices of waves and normals."""
     contraction = contraction or fastest_contraction()
     surfaces = [_Surface(contraction, *plane) for plane in _PLANES]
-    foamy = [_FoamSurface(contraction, *plane) for plane in _FOAM]
     return {
         "factors": [(surface.work, surface.form_factors) for surface in surfaces],
         "products": [(surface.work, surface.multiply) for surface in surfaces],
         "normals": [_normals_case(count) for count in _NORMALS],
-        "foam_products": [(surface.work, surface.multiply) for surface in foamy if surface.work.foam_products],
-        "foam": [(surface.work, surface.find) for surface in foamy],
+        "foam_products": [(surface.work, surface.multiply_past) for surface in surfaces],
+        "foam": [(surface.work, surface.find_foam) for surface in surfaces],
     }
 
 
@@ -126,58 +112,51 @@ def measured_prices(cases: dict[str, list]) -> dict[str, tuple[float, ...]]:
 
 
 class _Surface:
-    """A plane with waves, whose factors and products are timed apart."""
+    """A plane with waves and whitecaps, and the parts of its frame."""
 
-    def __init__(self, contraction, cells, levels, count, blocks):
-        grid = Grid(cell_size=0.1, cells=cells, levels=levels)
-        ocean = Ocean(Sea(wave_count=count), grid, ripples=_NO_RIPPLES)
-        waves = discretise(ocean.sea, grid.shortest_wavelength)
-        self._kernel = FrameKernel(grid, waves, contraction)
-        self._multiply = CONTRACTIONS[contraction].multiply
-        self._anchors = np.zeros((levels, 2))
-        self._outputs = {
-            block: np.empty((self._kernel.vertex_count, block.columns), np.float32) for block in blocks
-        }
-        self.work = work_of(ocean, waves, blocks, contraction)
-
-    def form_factors(self, time):
-        """The part of a frame that depends on time."""
-        self._kernel.fill_factors(time, self._anchors, self._outputs)
-
-    def multiply(self, _time):
-        """The other part."""
-        self._multiply(
-            [p for block, out in self._outputs.items() for p in self._kernel.products(out, block=block)]
-        )
-
-
-class _FoamSurface:
-    """A plane whose whitecaps are looked for, and the two parts of that."""
-
-    def __init__(self, contraction, cells, levels, count, instants):
+    def __init__(self, contraction, cells, levels, count, blocks, instants):
         grid, settings = Grid(cell_size=0.1, cells=cells, levels=levels), Foam(memory_steps=instants)
         ocean = Ocean(Sea(wave_count=count), grid, ripples=_NO_RIPPLES, foam=settings)
         waves = discretise(ocean.sea, grid.shortest_wavelength)
         self._kernel = FrameKernel(grid, waves, contraction)
         self._whitecaps = Whitecaps(settings, ocean.sea, grid, waves)
         self._multiply = CONTRACTIONS[contraction].multiply
-        self._columns = np.zeros((self._kernel.vertex_count, instants), np.float32)
-        self._kernel.fill_factors(0.0, np.zeros((levels, 2)), (self._whitecaps.block,))
-        self.work = work_of(ocean, waves, (), contraction)
+        self._anchors = np.zeros((levels, 2))
+        past = self._whitecaps.block
+        self._outputs = {
+            block: np.zeros((grid.vertex_count, block.columns), np.float32) for block in (*blocks, past)
+        }
+        self._columns, self._past = self._outputs[past], (past,)
+        self._present = blocks
+        self._foam = np.zeros(grid.vertex_count, np.float32)
+        self.work = work_of(ocean, waves, blocks, contraction)
+        self.form_factors(0.0)
+
+    def form_factors(self, time):
+        """The part of a frame that depends on time."""
+        self._kernel.fill_factors(time, self._anchors, self._outputs)
 
     def multiply(self, _time):
-        """The columns of all instants."""
-        self._multiply(self._kernel.products(self._columns, block=self._whitecaps.block))
+        """The columns of the waves."""
+        self._fill(self._present)
 
-    def find(self, _time):
+    def multiply_past(self, _time):
+        """Those of all instants of foam."""
+        self._fill(self._past)
+
+    def _fill(self, blocks):
+        self._multiply([p for block in blocks for p in self._kernel.products(self._outputs[block], block=block)])
+
+    def find_foam(self, _time):
         """The foam in them."""
-        self._whitecaps.foam(self._columns, np.zeros(len(self._columns), np.float32))
+        self._whitecaps.foam(self._columns, self._foam)
 
 
 def _normals_case(count):
     tangents = np.random.Generator(np.random.PCG64(0)).random((count, TANGENTS.columns), np.float32)
     out = np.empty((count, 3), np.float32)
-    return replace(_NOTHING, normals=float(count)), lambda _time: surface_normals(tangents, out)
+    work = replace(_NOTHING, normals=float(count), shared=is_shared(count))
+    return work, lambda _time: surface_normals(tangents, out)
 
 
 def _ripples_case(ripples, show):

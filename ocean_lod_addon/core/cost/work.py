@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..column_blocks import TANGENTS, ColumnBlock
-from ..contraction import CONTRACTIONS, PIECE_COLUMNS, PIECE_ROWS, piece_count
+from ..contraction import CONTRACTIONS, PIECE_COLUMNS, PIECE_ROWS, piece_count, shares
 from ..factors import mirrored_terms
 from ..lod import tile_edges, tile_sizes
 from ..ocean import Ocean
@@ -22,40 +22,51 @@ class Work:
     """Counts of what a frame does.
 
     multiplications  multiply-adds of all matrix products
-    runs             rows of the products times waves: each is one run over columns that lie side by side
+    passes           what else goes over the factors: a BLAS rearranges each number of the right one; without one,
+                     each row of the products times waves is one run over columns that lie side by side
     floats           numbers that they write
     products         how many there are, or how many pieces they are cut into
+    levels           of the plane
     factor_terms     complex numbers of the factors that are formed anew
     vertices         of the mesh
+    shared           1 if so many vertices are shared out to cores, 0 if one does all that is done for each
     normals          vertices whose normal is made from the waves, 0 without
     vectors          arrays of vectors that are handed to Blender
     texels           texels of ripple images that are written, times the bands in each
     far_texels       those of images of so many texels that a processor's caches do not hold them
     images           how many ripple images are written
     foam_multiplications  multiply-adds of the columns in which foam of the past is looked for as well
-    foam_runs        rows of their products times waves, as for `runs`
-    foam_floats      numbers that are looked through for foam
+    foam_passes      what else goes over their factors
+    foam_floats      numbers that they write
     foam_products    how many products they take
-    foam_vertices    vertices with foam, 0 without
+    foam_instants    numbers that are looked through for foam, and those that come of it
+    foam_lines       lines of the cache that this touches: those of a vertex lie side by side, and are taken one by
+                     one
     """
 
     multiplications: float
-    runs: float
+    passes: float
     floats: float
     products: float
+    levels: float
     factor_terms: float
     vertices: float
+    shared: float
     normals: float
     vectors: float
     texels: float
     far_texels: float
     images: float
     foam_multiplications: float
-    foam_runs: float
+    foam_passes: float
     foam_floats: float
     foam_products: float
-    foam_vertices: float
+    foam_instants: float
+    foam_lines: float
 
+
+_NUMBERS_IN_LINE = 16
+"""float32 in a line of a processor's cache."""
 
 _FOAM_VECTORS = 1 / 3
 """The foam of a vertex is a number, not a vector."""
@@ -89,18 +100,21 @@ def work_of(
     vertices = float(grid.vertex_count)
     return Work(
         multiplications=present.multiplications,
-        runs=present.runs,
+        passes=present.passes,
         floats=present.floats,
         products=present.products,
+        levels=float(grid.levels),
         factor_terms=float(kinds_of_left * _factor_terms(grid, waves, visible)),
         vertices=vertices,
+        shared=is_shared(grid.vertex_count),
         normals=vertices if TANGENTS in blocks else 0.0,
         vectors=len(blocks) + (_FOAM_VECTORS if instants else 0.0),
         foam_multiplications=before.multiplications,
-        foam_runs=before.runs,
-        foam_floats=instants * vertices,
+        foam_passes=before.passes,
+        foam_floats=instants * vertices if past else 0.0,
         foam_products=before.products,
-        foam_vertices=vertices if instants else 0.0,
+        foam_instants=(instants + 1) * vertices if instants else 0.0,
+        foam_lines=instants * vertices * min(instants / _NUMBERS_IN_LINE, 1.0),
         **ripple_work(_images(ocean)),
     )
 
@@ -110,7 +124,7 @@ class _ProductWork:
     """The part of `Work` that products of one kind make; all 0 without columns."""
 
     multiplications: float
-    runs: float
+    passes: float
     floats: float
     products: float
 
@@ -130,16 +144,18 @@ def _product_work(grid, waves, base, contraction, widths, folded, visible, wave_
     if folded:
         present, fading = _level_waves(grid, waves)
         terms = 2 * (mirrored_terms(count, present[level], fading[level]) + base)
-    multiplications = runs = products = 0.0
+    multiplications = passes = products = 0.0
     for width in widths:
-        across, along = np.ones_like(rows), np.ones_like(rows)
+        multiplications += width * float(np.sum(terms * rows * lines))
         if contraction == "einsum":
             across = _pieces(rows, PIECE_ROWS)
             along = _pieces(lines, PIECE_COLUMNS // width) if folded else _pieces(width * lines, PIECE_COLUMNS)
-        multiplications += width * float(np.sum(terms * rows * lines))
-        runs += float(np.sum(terms * rows * along))
-        products += float(np.sum(across * along))
-    return _ProductWork(multiplications, runs, sum(widths) * float(np.sum(rows * written)), products)
+            passes += float(np.sum(terms * rows * along))
+            products += float(np.sum(across * along))
+        else:
+            passes += width * float(np.sum(terms * lines))
+            products += len(rows)
+    return _ProductWork(multiplications, passes, sum(widths) * float(np.sum(rows * written)), products)
 
 
 def _pieces(lengths, size):
@@ -167,6 +183,11 @@ def _factor_terms(grid, waves, visible):
 
 _CACHED_TEXELS = 512
 """Texels along a side of an image, in complex numbers of 8 bytes, that caches hold beside all else: 2 MB."""
+
+
+def is_shared(vertices: int) -> float:
+    """`shared` of `Work` for so many vertices."""
+    return float(len(shares(vertices)) > 1)
 
 
 def ripple_work(images) -> dict[str, float]:

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..column_blocks import ColumnBlock
-from ..contraction import in_threads
+from ..contraction import in_threads, shares
 from ..dispersion import wavenumber
 from ..foam_settings import Foam
 from ..lod import Grid
@@ -56,9 +56,6 @@ _CALIBRATED_SHARES = (_FADED_AT, _WHOLE_FROM, 1.0)
 """Between them the threshold changes by a few hundredths of a deviation."""
 
 _SEARCHED_DISTANCES = 64
-
-_CHUNK = 1 << 16
-"""Vertices of one thread's turn: with fewer, threads spend their time on waiting for the interpreter."""
 
 
 def sea_wind(sea: Sea) -> float:
@@ -194,4 +191,4 @@ class Whitecaps:
             np.multiply(foam, vertices.fade[part], out=out[part])
             out[part] += vertices.uniform[part]
 
-        in_threads(work_out, [slice(start, start + _CHUNK) for start in range(0, len(columns), _CHUNK)])
+        in_threads(work_out, shares(len(columns)))
