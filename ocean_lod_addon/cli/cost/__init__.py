@@ -158,7 +158,8 @@ def _measure(options, output, with_blender):
     _print(f"Prices, found in {probe_seconds:.1f} s", report.price_lines(model.prices))
 
     with _price_finder(with_blender) as find:
-        whole = configurations.measure_configurations(find, longest, with_blender)
+        find_again = find if options.full else lambda: model
+        whole = configurations.measure_configurations(find_again, longest, with_blender)
         tried = [budgets.try_budget(find, budget, attempts, with_blender) for budget in budgets.BUDGETS]
         _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
         predictions = _try_predictions(find, None, with_blender) if options.full else None

@@ -67,7 +67,7 @@ def settings_of_quality(name: str):
 def measure_configurations(
     find: Callable[[], CostModel], longest: float, with_blender: bool
 ) -> list[ConfigurationResult]:
-    """All qualities, without their pictures; prices are found anew for each by `find`.
+    """All qualities, without their pictures, each by the prices that `find` finds just before it is measured.
 
     Those whose frames are predicted to take more than `longest` s are not measured.
     """
