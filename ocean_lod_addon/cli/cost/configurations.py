@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from ...core.cost.model import CostModel
+from ...core.cost.probe import typical
 from ...core.cost.quality import QUALITIES, Quality, apply, ladder
 from ...core.ripple_settings import Ripples
 from ..bench import in_blender
@@ -110,8 +111,8 @@ def _ripples_wrong(quality):
 def _seconds(settings, with_blender):
     if with_blender:
         with in_blender.fresh_data():
-            return frames.seconds(frames.later_frames(frames.BlenderOcean.of(settings)))
-    return frames.seconds(frames.later_frames(frames.NumpyFrame(settings, None)))
+            return typical(frames.times(frames.later_frames(frames.BlenderOcean.of(settings))))
+    return typical(frames.times(frames.later_frames(frames.NumpyFrame(settings, None))))
 
 
 @dataclass(frozen=True)

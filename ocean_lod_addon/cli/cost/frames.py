@@ -9,7 +9,6 @@ import numpy as np
 
 from ...core.column_blocks import POSITION, TANGENTS
 from ...core.cost.planned import planned_work
-from ...core.cost.probe import typical
 from ...core.cost.work import Work
 from ...core.discretise import discretise
 from ...core.effects import Effects
@@ -130,15 +129,15 @@ def later_frames(ocean: NumpyFrame | BlenderOcean) -> Callable[[], None]:
     return run
 
 
-_FRAMES, _SECONDS = 5, 0.3
-"""Frames that are measured, and seconds that they take together, at least."""
+_FRAMES, _SECONDS = 3, 0.15
+"""Frames that are measured at a time, and seconds that they take together, at least."""
 
 
-def seconds(run: Callable[[], None]) -> float:
-    """What a frame takes, reckoned as the probe does it."""
+def times(run: Callable[[], None]) -> list[float]:
+    """Seconds of some frames; `typical` says what one takes, as for the probe."""
     taken = []
     while len(taken) < _FRAMES or sum(taken) < _SECONDS:
         start = time.perf_counter()
         run()
         taken.append(time.perf_counter() - start)
-    return typical(taken)
+    return taken

@@ -2,14 +2,15 @@
 """The cost model tried on configurations that it was not calibrated with.
 
 A processor that grows warm or is shared with others changes its pace within seconds. What a prediction is worth
-shows only beside times that were measured when its prices were: so both are done in turns, and the turn in the
-middle counts.
+shows only beside times that were measured when its prices were: so frames are measured before and after these are
+found, all of that in turns, and the turn in the middle counts.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from ...core.cost.model import CostModel
+from ...core.cost.probe import typical
 from ...core.foam_settings import Foam
 from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
@@ -100,7 +101,9 @@ def _try_case(find, contraction, with_blender, grid, waves, ripples, instants):
         run = frames.later_frames(ocean)
 
         def turn():
-            return Prediction(name, find().total(work), frames.seconds(run))
+            before = frames.times(run)
+            model = find()
+            return Prediction(name, model.total(work), typical(before + frames.times(run)))
 
         turns = [turn() for _ in range(_TURNS)]
         if not agree(turns):
