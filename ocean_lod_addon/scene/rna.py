@@ -102,11 +102,16 @@ def read(settings_class, group, **other_fields):
 
     Raises OceanError if the values do not go together (single values are kept in range by Blender).
     """
-    values = {
-        name: _python_value(getattr(group, name), parameter)
-        for name, parameter in parameters_of(settings_class).items()
-    }
-    return settings_class(**values, **other_fields)
+    values = tuple(getattr(group, name) for name in parameters_of(settings_class))
+    return _settings(settings_class, values, tuple(other_fields.items()))
+
+
+@functools.lru_cache(maxsize=256)  # every frame reads all settings anew, most as they were
+def _settings(settings_class, values, other_fields):
+    """Settings of the values that Blender keeps, in the order of their parameters."""
+    parameters = parameters_of(settings_class).items()
+    typed = {name: _python_value(value, each) for (name, each), value in zip(parameters, values, strict=True)}
+    return settings_class(**typed, **dict(other_fields))
 
 
 def _python_value(value, parameter):
@@ -117,7 +122,7 @@ def _python_value(value, parameter):
     return value
 
 
-@functools.lru_cache(maxsize=1024)  # every frame reads all settings anew, most as they were
+@functools.lru_cache(maxsize=1024)
 def typed_number(value: float) -> float:
     """The shortest decimal number that Blender would keep as this float32 value."""
     return float(str(np.float32(value)))

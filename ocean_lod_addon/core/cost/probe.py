@@ -25,6 +25,7 @@ from .work import Work, is_shared, ripple_work, work_of
 
 _BOTH = (POSITION, TANGENTS)
 _PLANES = (
+    (80, 9, 112, _BOTH, 4),
     (96, 11, 48, _BOTH, 16),
     (128, 8, 224, (POSITION,), 8),
     (424, 5, 28, _BOTH, 2),
@@ -34,7 +35,7 @@ _PLANES = (
     (384, 1, 192, _BOTH, 4),
 )
 """(cells, levels, waves, columns, instants of foam): together they tell the prices of arithmetic, of memory and of
-calls apart. All are large enough for threads: smaller frames, which one thread makes, nobody waits for."""
+calls apart. All have products enough for threads: smaller frames, which one makes, nobody waits for."""
 
 _ROUNDS = 7
 _PATIENCE, _LEAST = 0.02, 3
