@@ -101,10 +101,10 @@ class MirroredProduct:
 
 
 class CallCost(NamedTuple):
-    """What a product takes besides its multiplications, as multiplications that take as long.
+    """What a product takes besides its multiplications, as multiplications that take as long; found by trying.
 
-    rows   the right factor is rearranged at each call, in the time that so many rows of the left one take
-    terms  all else, in sums of so many terms
+    rows   so many more rows of the left factor: the right one is rearranged at each call
+    terms  so many multiplications for each column of a block: all else of a call
     """
 
     rows: int

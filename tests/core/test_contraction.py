@@ -59,6 +59,7 @@ def test_pieces_of_a_mirrored_product_make_the_whole(own, first_line_has_no_imag
     out = np.full((rows, lines * len(signs)), np.nan, np.float32) if own else None
     image = np.full((rows, lines - first_line_has_no_image, len(signs)), np.nan, np.float32)
     whole = MirroredProduct(left, right, signs, out, image)
+    assert len(whole.pieces) > 2
     assert all(len(p.left[0]) < rows and p.right[0].shape[1] < 3 * lines for p in whole.pieces)
     contraction.multiply_without_blas([whole])
     U, V = (np.einsum("ij,jk->ik", a, b) for a, b in zip(left, right, strict=True))

@@ -67,6 +67,7 @@ def test_counted_work_is_what_the_kernel_does(grid, waves, contraction, share_in
     assert counted.foam_products == sum(len(p.pieces) if cut else 1 for p in of_foam)
     written = [p.out for p in of_waves] + [getattr(p, "mirrored", None) for p in of_waves]
     assert counted.floats == sum(array.size for array in written if array is not None)
+    assert counted.foam_floats == sum(p.out.size for p in of_foam)
     assert counted.vertices == counted.normals == grid.vertex_count
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ocean_lod_addon.core.contraction import CallCost
+from ocean_lod_addon.core.contraction import CONTRACTIONS, CallCost
 from ocean_lod_addon.core.lod import Grid, rectangle, tile_edges, tile_sizes
 from ocean_lod_addon.core.patches import Patches, exact_patches, wave_counts
 from ocean_lod_addon.core.windows import window, window_reach
@@ -17,7 +17,7 @@ GRID = Grid(cell_size=0.25, cells=256, levels=5)
 WAVELENGTH = GRID.shortest_wavelength * np.exp2(np.linspace(0.0, 6.0, 60))
 SIZES = tile_sizes(GRID.cells, GRID.levels)
 EDGES = np.array(tile_edges(GRID.cells))
-CALL = CallCost(8, 2e5)
+CALL = CONTRACTIONS["matmul"].call
 
 
 def some_tiles(seed, share):
@@ -92,7 +92,9 @@ def test_exact_patches_cover_just_these_tiles_once(flags):
 
 @pytest.mark.parametrize("heading", [0.0, 0.4, 1.5, 3.0, -2.0])
 @pytest.mark.parametrize("folded", [False, True])
-@pytest.mark.parametrize("call", [CallCost(0, 0.0), CallCost(8, 0.0), CallCost(0, 1e5), CallCost(8, 2e5)])
+@pytest.mark.parametrize(
+    "call", [CallCost(0, 0.0), CallCost(8, 0.0), *(each.call for each in CONTRACTIONS.values())]
+)
 def test_putting_rows_together_costs_no_more_than_one_by_one(call, heading, folded):
     """A row of a wedge is a run of tiles. Where calls cost nothing, nothing else is multiplied."""
     patches = Patches(GRID, WAVELENGTH, call, folded)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Budgets tried out: what is chosen for a time, and the time that its frames then take."""
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -13,7 +12,6 @@ from ...core.cost.quality import apply, ladder
 from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
-from ..bench import in_blender
 from . import frames
 
 BUDGETS = (5e-3, 20e-3, 100e-3)
@@ -63,17 +61,5 @@ def try_budget(find: Callable[[], CostModel], budget: float, attempts: int, with
 
 
 def _try_choice(choice, with_blender):
-    settings = apply(choice.rung.quality, SIZED)
-    if not with_blender:
-        return BudgetResult(choice, _median(frames.NumpyFrame(settings, None)))
-    with in_blender.fresh_data():
-        return BudgetResult(choice, _median(frames.BlenderOcean.of(settings)))
-
-
-def _median(ocean):
-    run, taken = frames.later_frames(ocean), []
-    for _ in range(FRAMES):
-        start = time.perf_counter()
-        run()
-        taken.append(time.perf_counter() - start)
-    return float(np.median(taken))
+    with frames.later_frames(apply(choice.rung.quality, SIZED), with_blender) as run:
+        return BudgetResult(choice, float(np.median(frames.times(run, FRAMES, seconds=0.0))))

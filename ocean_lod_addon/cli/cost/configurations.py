@@ -8,7 +8,6 @@ from ...core.cost.model import CostModel
 from ...core.cost.probe import typical
 from ...core.cost.quality import QUALITIES, Quality, apply, ladder
 from ...core.ripple_settings import Ripples
-from ..bench import in_blender
 from . import frames
 from .budgets import SIZED
 from .knobs.geometry import MILLIMETRES, mesh_height_error
@@ -78,7 +77,10 @@ def measure_configurations(
 def _measure(name, quality, find, longest, with_blender):
     settings = apply(quality, SIZED)
     predicted = find().total(frames.work(settings))
-    measured = 1e3 * _seconds(settings, with_blender) if predicted <= longest else None
+    measured = None
+    if predicted <= longest:
+        with frames.later_frames(settings, with_blender) as run:
+            measured = 1e3 * typical(frames.times(run))
     return ConfigurationResult(
         name,
         quality.label,
@@ -106,13 +108,6 @@ def _ripples_wrong(quality):
     if quality.ripples == "off":
         return ripple_error(Ripples(kind="off"))
     return ripple_error(replace(SIZED.ripples, resolution=quality.ripples))
-
-
-def _seconds(settings, with_blender):
-    if with_blender:
-        with in_blender.fresh_data():
-            return typical(frames.times(frames.later_frames(frames.BlenderOcean.of(settings))))
-    return typical(frames.times(frames.later_frames(frames.NumpyFrame(settings, None))))
 
 
 @dataclass(frozen=True)

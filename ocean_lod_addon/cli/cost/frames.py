@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Frames of whole configurations, to be timed: by NumPy alone, or through the handler that Blender calls."""
 
+import contextlib
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +22,7 @@ from ...core.ocean import Ocean, Surface
 from ...core.plan import Facts, Settings, decide, effective
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
+from ..bench import in_blender
 from ..bench.timing import FRAMES_PER_SECOND, Contestant, one_after_another
 
 IN_VIEWPORT = Facts(engine="CYCLES", final=False)
@@ -122,21 +124,25 @@ class BlenderOcean:
         self.scene.view_layers[0].update()
 
 
-def later_frames(ocean: NumpyFrame | BlenderOcean) -> Callable[[], None]:
-    """A function that makes frame after frame; the first one, which writes what is static, has been made."""
-    run = one_after_another(ocean.contestant("frame"))
-    run()
-    return run
+@contextlib.contextmanager
+def later_frames(
+    settings: Settings, with_blender: bool, contraction: str | None = None
+) -> Iterator[Callable[[], None]]:
+    """A function that makes frame after frame of an ocean, through Blender or by NumPy alone.
+
+    The first one, which writes what is static, has been made. By NumPy alone `contraction` is as for `work`.
+    """
+    with in_blender.fresh_data() if with_blender else contextlib.nullcontext():
+        ocean = BlenderOcean.of(settings) if with_blender else NumpyFrame(settings, contraction)
+        run = one_after_another(ocean.contestant("frame"))
+        run()
+        yield run
 
 
-_FRAMES, _SECONDS = 3, 0.15
-"""Frames that are measured at a time, and seconds that they take together, at least."""
-
-
-def times(run: Callable[[], None]) -> list[float]:
-    """Seconds of some frames; `typical` says what one takes, as for the probe."""
+def times(run: Callable[[], None], frames: int = 3, seconds: float = 0.15) -> list[float]:
+    """Seconds of each of so many `frames` or more, which take so many `seconds` together or more."""
     taken = []
-    while len(taken) < _FRAMES or sum(taken) < _SECONDS:
+    while len(taken) < frames or sum(taken) < seconds:
         start = time.perf_counter()
         run()
         taken.append(time.perf_counter() - start)

@@ -81,12 +81,13 @@ def _draw_front(axes, results):
         label="the ladder, predicted",
     )
     for configuration in results.configurations:
-        if configuration.measured is not None:
-            axes.plot(configuration.measured, configuration.samples, "o", color=_MEASURED)
+        measured = configuration.measured
+        if measured is not None:
+            axes.plot(measured, configuration.samples, "o", color=_MEASURED)
         axes.annotate(
             f"{configuration.label}: {configuration.height:.2g} mm, "
             f"{configuration.ripples:.2g} % of ripples wrong",
-            (configuration.measured or configuration.predicted, configuration.samples),
+            (configuration.predicted if measured is None else measured, configuration.samples),
             textcoords="offset points",
             xytext=(8, -10),
             fontsize=8,

@@ -15,7 +15,6 @@ from ...core.foam_settings import Foam
 from ...core.lod import Grid
 from ...core.ripple_settings import Ripples
 from ...core.sea import Sea
-from ..bench import in_blender
 from . import frames
 
 LIMIT = 0.20
@@ -97,8 +96,7 @@ def _try_case(find, contraction, with_blender, grid, waves, ripples, instants):
     print(f"    {name}", flush=True)
     work = frames.work(settings, contraction)
 
-    def in_turns(ocean):
-        run = frames.later_frames(ocean)
+    with frames.later_frames(settings, with_blender, contraction) as run:
 
         def turn():
             before = frames.times(run)
@@ -108,12 +106,7 @@ def _try_case(find, contraction, with_blender, grid, waves, ripples, instants):
         turns = [turn() for _ in range(_TURNS)]
         if not agree(turns):
             turns += [turn() for _ in range(_TURNS - 1)]
-        return middle(turns)
-
-    if not with_blender:
-        return in_turns(frames.NumpyFrame(settings, contraction))
-    with in_blender.fresh_data():
-        return in_turns(frames.BlenderOcean.of(settings))
+    return middle(turns)
 
 
 def agree(predictions: list[Prediction]) -> bool:

@@ -111,7 +111,7 @@ def work_of(
         vectors=len(blocks) + (_FOAM_VECTORS if instants else 0.0),
         foam_multiplications=before.multiplications,
         foam_passes=before.passes,
-        foam_floats=instants * vertices if past else 0.0,
+        foam_floats=before.floats,
         foam_products=before.products,
         foam_instants=(instants + 1) * vertices if instants else 0.0,
         foam_lines=instants * vertices * min(instants / _NUMBERS_IN_LINE, 1.0),
