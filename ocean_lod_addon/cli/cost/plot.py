@@ -85,8 +85,8 @@ def _draw_front(axes, results):
         if measured is not None:
             axes.plot(measured, configuration.samples, "o", color=_MEASURED)
         axes.annotate(
-            f"{configuration.label}: {configuration.height:.2g} mm, "
-            f"{configuration.ripples:.2g} % of ripples wrong",
+            f"{configuration.label}: {configuration.height:.3g} mm, "
+            f"{configuration.ripples:.3g} % of ripples wrong",
             (configuration.predicted if measured is None else measured, configuration.samples),
             textcoords="offset points",
             xytext=(8, -10),
