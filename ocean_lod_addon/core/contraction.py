@@ -40,8 +40,8 @@ class Product:
         rows, columns = self.out.shape
         return tuple(
             Product(self.left[across], self.right[:, along], self.out[across, along])
-            for across in _even_slices(rows, PIECE_ROWS)
-            for along in _even_slices(columns, PIECE_COLUMNS)
+            for across in even_slices(rows, PIECE_ROWS)
+            for along in even_slices(columns, PIECE_COLUMNS)
         )
 
 
@@ -75,8 +75,8 @@ class MirroredProduct:
         """It cut up for threads, as a `Product` is."""
         return tuple(
             self._piece(across, along)
-            for across in _even_slices(len(self.left[0]), PIECE_ROWS)
-            for along in _even_slices(self._lines, PIECE_COLUMNS // len(self.signs))
+            for across in even_slices(len(self.left[0]), PIECE_ROWS)
+            for along in even_slices(self._lines, PIECE_COLUMNS // len(self.signs))
         )
 
     @property
@@ -153,7 +153,7 @@ rows of that follow each other in memory, parts of rows do not, which takes a fi
 push the row that they add to out of the cache."""
 
 
-def _even_slices(length, size):
+def even_slices(length: int, size: float) -> list[slice]:
     """Equal slices of range(length), about `size` long: no remainder is left that is too short to be fast."""
     return _slices(length, piece_count(length, size))
 
@@ -233,13 +233,20 @@ def in_threads(work: Callable[[object], object], pieces) -> None:
         pass
 
 
-def shares(vertices: int) -> list[slice]:
-    """Equal parts of so many vertices for `in_threads`, as many for each core; or all, if they are few."""
-    return _slices(vertices, _for_each_core(max(1, -(-vertices // _MOST_VERTICES))))
+def shares(vertices: int, columns: int = 1) -> list[slice]:
+    """Equal parts of so many vertices for `in_threads`, as many for each core; or all, if they are few.
+
+    `columns` is how many numbers that lie side by side in memory each vertex has, of which one is taken at a time.
+    """
+    most = min(_MOST_VERTICES, _MOST_NUMBERS // columns)
+    return _slices(vertices, _for_each_core(max(1, -(-vertices // most))))
 
 
 _MOST_VERTICES = 1 << 17
 """In a thread's turn. Of less work, threads spend their time on waiting for the interpreter."""
+
+_MOST_NUMBERS = 1 << 21
+"""In a thread's turn: lines of more float32 have left the cache when the next number in them is wanted."""
 
 
 def _for_each_core(count):

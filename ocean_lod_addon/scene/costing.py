@@ -28,8 +28,8 @@ from . import ocean_object, placing, planning, properties
 from .fresh_data import fresh_data
 from .ripple_images import IMAGE_KEY
 
-_PROBED = ((64, 8, True), (64, 8, False), (128, 8, True), (128, 8, False))
-"""(cells, levels, normals) of the meshes that are measured in Blender."""
+_PROBED = (Grid(cells=64, levels=8), Grid(cells=128, levels=8))
+"""The planes of meshes that are measured in Blender, each without normals and with them."""
 
 _PROBED_OCEAN = Grid(cells=64, levels=8)
 """The plane of an ocean that is measured there, with waves to decide about and an image of ripples."""
@@ -53,7 +53,7 @@ def model() -> CostModel | None:
 
 
 def measure_machine() -> CostModel:
-    """Find the prices of this machine: two or three seconds."""
+    """Find the prices of this machine: about a second."""
     with price_cases() as cases:
         _machine.model = CostModel(probe.measured_prices(cases))
     return _machine.model
@@ -79,7 +79,8 @@ def _shown_image(texels):
 def _blender_cases():
     """Objects in scenes of their own: handing positions over, and Blender's evaluation of what has changed."""
     ocean = _ProbedOcean()
-    probed = [*(_ProbedMesh(*each) for each in _PROBED), ocean]
+    meshes = [mesh for grid in _PROBED for mesh in _probed_meshes(grid)]
+    probed = [*(_ProbedMesh(mesh) for mesh in meshes), ocean]
     return {
         "setup": [(ocean.work, ocean.decide)],
         "write": [(one.work, one.write) for one in probed],
@@ -120,14 +121,19 @@ class _Probed:
         self._scene.view_layers[0].update()
 
 
+def _probed_meshes(grid):
+    """A plane, and a copy with normals, which is made sooner than another plane."""
+    mesh = bpy.data.meshes.new("probe")
+    mesh_arrays.build_topology(mesh, grid)
+    with_normals = mesh.copy()
+    mesh_arrays.ensure_attributes(with_normals, [NORMAL_ATTRIBUTE], EFFECT_ATTRIBUTES)
+    return mesh, with_normals
+
+
 class _ProbedMesh(_Probed):
     """The mesh of an ocean, which is all that Blender evaluates of it: no material is made."""
 
-    def __init__(self, cells, levels, with_normals):
-        mesh = bpy.data.meshes.new("probe")
-        mesh_arrays.build_topology(mesh, Grid(cells=cells, levels=levels))
-        if with_normals:
-            mesh_arrays.ensure_attributes(mesh, [NORMAL_ATTRIBUTE], EFFECT_ATTRIBUTES)
+    def __init__(self, mesh):
         ob = bpy.data.objects.new("probe", mesh)
         ocean_object.add_pass_through_modifier(ob)
         super().__init__(bpy.data.scenes.new("probe"), ob)

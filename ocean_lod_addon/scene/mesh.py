@@ -24,7 +24,10 @@ def build_topology(mesh, grid: Grid) -> None:
     mesh.vertices.add(faces.vertex_count)
     mesh.loops.add(corner_count)
     mesh.polygons.add(len(faces.triangles) + len(faces.quads))
-    mesh.loops.foreach_set("vertex_index", np.concatenate([faces.triangles.ravel(), faces.quads.ravel()]))
+    # Through the attribute in one copy; `vertex_index` of loops would be set corner by corner, some hundred times
+    # as long.
+    corners = np.concatenate([faces.triangles.ravel(), faces.quads.ravel()])
+    mesh.attributes[".corner_vert"].data.foreach_set("value", corners)
     starts = np.concatenate(
         [
             np.arange(0, faces.triangles.size, 3, dtype=np.int32),

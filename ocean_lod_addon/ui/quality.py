@@ -68,7 +68,7 @@ class OBJECT_OT_ocean_lod_meet_budget(_QualityOperator, bpy.types.Operator):
 
 
 class OBJECT_OT_ocean_lod_measure_machine(_QualityOperator, bpy.types.Operator):
-    """Measure how fast this machine is, to predict the time of a frame: takes a few seconds"""
+    """Measure how fast this machine is, to predict the time of a frame: takes about a second"""
 
     bl_idname = "object.ocean_lod_measure_machine"
     bl_label = "Measure This Machine"

@@ -44,6 +44,13 @@ def test_shares_are_all_vertices_once_and_as_many_for_each_core(vertices):
     assert len(shares) == 1 if vertices <= 1 << 17 else len(shares) % os.cpu_count() == 0
 
 
+def test_shares_of_many_columns_stay_in_the_cache():
+    assert len(contraction.shares(1 << 17, 16)) == 1
+    shares = contraction.shares(1 << 17, 64)
+    assert len(shares) % os.cpu_count() == 0
+    assert all((share.stop - share.start) * 64 <= 1 << 21 for share in shares)
+
+
 def test_no_product_is_no_work():
     contraction.multiply_without_blas([])
 

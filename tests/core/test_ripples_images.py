@@ -9,6 +9,7 @@ import pytest
 from ocean_lod_addon.core.dispersion import angular_frequency
 from ocean_lod_addon.core.errors import OceanError
 from ocean_lod_addon.core.ripple_settings import Ripples
+from ocean_lod_addon.core.ripples import synthesis as synthesis_module
 from ocean_lod_addon.core.ripples.layout import (
     SLACK,
     TEXELS_PER_WAVE,
@@ -63,6 +64,21 @@ def test_texels_are_the_direct_sum_of_the_waves(band):
     expected = [-np.sum(slope * step * waves.column), -np.sum(slope * step * waves.row)]
     assert image[y, x, :2] == pytest.approx(expected, abs=1e-5)
     assert not image[:, :, 2:].any(), "the second band is absent"
+
+
+@pytest.mark.parametrize("texels_at_a_time", [1, 1000, 128 * 40, 1 << 17])
+def test_pieces_that_threads_take_make_the_whole_image(monkeypatch, texels_at_a_time):
+    """Truth: rows and columns are transformed one by one, so to the bit."""
+    whole = image_of(synthesis_of(), 1.5)
+    monkeypatch.setattr(synthesis_module, "_TEXELS_AT_A_TIME", texels_at_a_time)
+    np.testing.assert_array_equal(image_of(synthesis_of(), 1.5), whole)
+
+
+def test_small_images_are_left_to_one_thread_and_large_ones_shared_out():
+    assert len(synthesis_module.line_pieces(256, 256)) == 1
+    pieces = synthesis_module.line_pieces(1024, 1024)
+    assert len(pieces) == 8
+    assert [row for piece in pieces for row in range(piece.start, piece.stop)] == list(range(1024))
 
 
 def test_texels_have_the_slope_variance_of_the_band():

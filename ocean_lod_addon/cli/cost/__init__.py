@@ -18,6 +18,7 @@ from ..results import json_output, save_json, save_text
 from . import budgets, configurations, ladders, pictures, plot, prediction, report
 from .budgets import BudgetResult
 from .configurations import ConfigurationResult, FrontPoint
+from .frames import BlenderOcean
 from .knobs.misprints import MISPRINTS
 from .knobs.registry import KNOBS
 from .ladders import Ladder
@@ -110,7 +111,8 @@ def run(options) -> None:
     """Measure, print and save. Raises OceanError for bad arguments, before anything is measured."""
     with_blender = in_blender.is_available()
     if options.budget_ms is not None:
-        model = _measured_model(with_blender)
+        with _beside_an_ocean(with_blender):
+            model = _measured_model(with_blender)
         print(budgets.choose_for(model, 1e-3 * options.budget_ms).explain(), flush=True)
         return
     output = json_output(options.output)
@@ -121,6 +123,17 @@ def run(options) -> None:
         print(f"saved {knobs_path}\nsaved {front_path}", flush=True)
     else:
         print("no plots: the Python package matplotlib is not installed here", flush=True)
+
+
+@contextlib.contextmanager
+def _beside_an_ocean(with_blender):
+    """Within this context Blender has an ocean, as a user's has: its nodes are not made while prices are found."""
+    if not with_blender:
+        yield
+        return
+    with in_blender.fresh_data():
+        BlenderOcean.of(budgets.SIZED)
+        yield
 
 
 def _measured_model(with_blender):
@@ -152,17 +165,17 @@ def _measure(options, output, with_blender):
     machine = this_machine(with_blender)
     rounds, attempts, longest = (5, 3, math.inf) if options.full else (3, 1, _LONGEST_IF_QUICK)
     print(f"{machine}; matrix products by {fastest_contraction()}", flush=True)
-    probe_started = time.perf_counter()
-    model = _measured_model(with_blender)
-    probe_seconds = time.perf_counter() - probe_started
-    _print(f"Prices, found in {probe_seconds:.1f} s", report.price_lines(model.prices))
-
-    with _price_finder(with_blender) as find:
-        find_again = find if options.full else lambda: model
-        whole = configurations.measure_configurations(find_again, longest, with_blender)
-        tried = [budgets.try_budget(find, budget, attempts, with_blender) for budget in budgets.BUDGETS]
-        _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
-        predictions = _try_predictions(find, None, with_blender) if options.full else None
+    with _beside_an_ocean(with_blender):
+        probe_started = time.perf_counter()
+        model = _measured_model(with_blender)
+        probe_seconds = time.perf_counter() - probe_started
+        _print(f"Prices, found in {probe_seconds:.1f} s", report.price_lines(model.prices))
+        with _price_finder(with_blender) as find:
+            find_again = find if options.full else lambda: model
+            whole = configurations.measure_configurations(find_again, longest, with_blender)
+            tried = [budgets.try_budget(find, budget, attempts, with_blender) for budget in budgets.BUDGETS]
+            _print("Budgets, the ocean of the Add menu", report.budget_lines(tried))
+            predictions = _try_predictions(find, None, with_blender) if options.full else None
     without_blas = _try_without_blas(options.contraction or "einsum") if options.full else None
 
     measured = []

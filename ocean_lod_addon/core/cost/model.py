@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How long a frame takes: for each stage a sum of the work in it, each kind of work at its own price.
 
-The prices are those of one machine, one NumPy and one Blender; `probe` finds them in a few seconds.
+The prices are those of one machine, one NumPy and one Blender; `probe` finds them in about a second.
 """
 
 import itertools
@@ -25,9 +25,9 @@ class Stage:
     counts: Callable[[Work], tuple[float, ...]]
 
 
-def _by_cores(work, count):
+def _by_cores(count, shared):
     """What one core does, and what all share, which has a price of its own: together they wait for the memory."""
-    return (1.0 - work.shared) * count, work.shared * count
+    return (1.0 - shared) * count, shared * count
 
 
 STAGES: dict[str, Stage] = {
@@ -36,17 +36,23 @@ STAGES: dict[str, Stage] = {
     "products": Stage(
         "Wave products", lambda work: (work.multiplications, work.passes, work.floats, work.products)
     ),
-    "normals": Stage("Normals", lambda work: (float(work.normals > 0.0), *_by_cores(work, work.normals))),
+    "normals": Stage(
+        "Normals", lambda work: (float(work.normals > 0.0), *_by_cores(work.normals, work.normals_shared))
+    ),
     "foam_products": Stage(
         "Foam products",
         lambda work: (work.foam_multiplications, work.foam_passes, work.foam_floats, work.foam_products),
     ),
     "foam": Stage(
         "Foam",
-        lambda work: (float(work.foam_instants > 0.0), *_by_cores(work, work.foam_instants), work.foam_lines),
+        lambda work: (
+            float(work.foam_instants > 0.0),
+            *_by_cores(work.foam_instants, work.foam_shared),
+            work.foam_lines,
+        ),
     ),
     "write": Stage("Write mesh", lambda work: (work.vectors, work.vectors * work.vertices)),
-    "ripples": Stage("Ripples", lambda work: (work.images, work.texels, work.far_texels)),
+    "ripples": Stage("Ripples", lambda work: (work.images, work.texels, work.shared_texels)),
     "blender": Stage(
         "Blender",
         lambda work: (

@@ -13,6 +13,7 @@ from ..lod import tile_edges, tile_sizes
 from ..ocean import Ocean
 from ..patches import Patches, lines_in_view
 from ..ripples.bump import bump_layout
+from ..ripples.synthesis import line_pieces
 from ..waves import WaveSet
 from ..windows import fading_waves, first_wave
 
@@ -29,17 +30,18 @@ class Work:
     levels           of the plane
     factor_terms     complex numbers of the factors that are formed anew
     vertices         of the mesh
-    shared           1 if so many vertices are shared out to cores, 0 if one does all that is done for each
+    normals_shared   1 if so many normals are shared out to cores, 0 if one makes them all
     normals          vertices whose normal is made from the waves, 0 without
     vectors          arrays of vectors that are handed to Blender
-    texels           texels of ripple images that are written, times the bands in each
-    far_texels       those of images of so many texels that a processor's caches do not hold them
+    texels           texels of ripple images that one core writes, times the bands in each
+    shared_texels    those of images so large that they are shared out to cores
     images           how many ripple images are written
     foam_multiplications  multiply-adds of the columns in which foam of the past is looked for as well
     foam_passes      what else goes over their factors
     foam_floats      numbers that they write
     foam_products    how many products they take
     foam_instants    numbers that are looked through for foam, and those that come of it
+    foam_shared      as for normals
     foam_lines       lines of the cache that this touches: those of a vertex lie side by side, and are taken one by
                      one
     """
@@ -51,17 +53,18 @@ class Work:
     levels: float
     factor_terms: float
     vertices: float
-    shared: float
+    normals_shared: float
     normals: float
     vectors: float
     texels: float
-    far_texels: float
+    shared_texels: float
     images: float
     foam_multiplications: float
     foam_passes: float
     foam_floats: float
     foam_products: float
     foam_instants: float
+    foam_shared: float
     foam_lines: float
 
 
@@ -106,7 +109,7 @@ def work_of(
         levels=float(grid.levels),
         factor_terms=float(kinds_of_left * _factor_terms(grid, waves, visible)),
         vertices=vertices,
-        shared=is_shared(grid.vertex_count),
+        normals_shared=is_shared(grid.vertex_count),
         normals=vertices if TANGENTS in blocks else 0.0,
         vectors=len(blocks) + (_FOAM_VECTORS if instants else 0.0),
         foam_multiplications=before.multiplications,
@@ -114,6 +117,7 @@ def work_of(
         foam_floats=before.floats,
         foam_products=before.products,
         foam_instants=(instants + 1) * vertices if instants else 0.0,
+        foam_shared=is_shared(grid.vertex_count, max(instants, 1)),
         foam_lines=instants * vertices * min(instants / _NUMBERS_IN_LINE, 1.0),
         **ripple_work(_images(ocean)),
     )
@@ -181,20 +185,17 @@ def _factor_terms(grid, waves, visible):
     return np.dot(lines, _level_waves(grid, waves)[0])
 
 
-_CACHED_TEXELS = 512
-"""Texels along a side of an image, in complex numbers of 8 bytes, that caches hold beside all else: 2 MB."""
-
-
-def is_shared(vertices: int) -> float:
-    """`shared` of `Work` for so many vertices."""
-    return float(len(shares(vertices)) > 1)
+def is_shared(vertices: int, columns: int = 1) -> float:
+    """Whether so many vertices with so many columns each are shared out to cores, 0 or 1."""
+    return float(len(shares(vertices, columns)) > 1)
 
 
 def ripple_work(images) -> dict[str, float]:
     """The counts of writing these images (ripples.layout.Tile), by their names in `Work`."""
-    texels = [float(image.texels**2 * len(image.bands)) for image in images]
-    far = [count for count, image in zip(texels, images, strict=True) if image.texels > _CACHED_TEXELS]
-    return {"texels": sum(texels), "far_texels": float(sum(far)), "images": float(len(images))}
+    texels = {False: 0.0, True: 0.0}
+    for image in images:
+        texels[len(line_pieces(image.texels, image.texels)) > 1] += image.texels**2 * len(image.bands)
+    return {"texels": texels[False], "shared_texels": texels[True], "images": float(len(images))}
 
 
 def _images(ocean):

@@ -191,4 +191,4 @@ class Whitecaps:
             np.multiply(foam, vertices.fade[part], out=out[part])
             out[part] += vertices.uniform[part]
 
-        in_threads(work_out, shares(len(columns)))
+        in_threads(work_out, shares(*columns.shape))

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..constants import SURFACE_TENSION_OVER_DENSITY
+from ..contraction import even_slices, in_threads
 from ..discretise import looping_frequency
 from ..dispersion import Water, angular_frequency
 from ..rng import stream_seed, uniform
@@ -96,19 +97,24 @@ class _BandField:
         self._position = np.searchsorted(self._columns, self._column)
         self._mirrored_position = np.searchsorted(self._columns, self._mirrored_column)
 
-    def image(self, time: float) -> np.ndarray:
-        """(texels, texels) complex64, indexed [y, x], at `time` in s."""
-        texels = self._texels
+    @property
+    def column_count(self) -> int:
+        """Columns of the lattice that have waves."""
+        return len(self._columns)
+
+    def add_spectrum(self, time: float, spectrum: np.ndarray) -> None:
+        """Fill zeros of (texels, columns) complex64 at `time` in s: rows j, and the columns i that have waves."""
         phase = self._waves.phase_at(time).astype(np.float32)
         wave = self._coefficient * (np.cos(phase) + 1j * np.sin(phase))
         # i k/2 A e^(i phase) e^(ik.x) and its mirror image, i (-k)/2 A e^(-i phase) e^(-ik.x); two waves that
         # travel against each other share a place
-        spectrum = np.zeros((texels, len(self._columns)), np.complex64)
         spectrum[self._row, self._position] = wave
         mirrored = self._coefficient * (np.sin(phase) * 1j - np.cos(phase))
         spectrum[self._mirrored_row, self._mirrored_position] += mirrored
-        along_y = np.fft.ifft(spectrum, axis=0)
-        full = np.zeros((texels, texels), along_y.dtype)
+
+    def along_x(self, along_y: np.ndarray) -> np.ndarray:
+        """Slopes of some rows of the image, (rows, texels) complex, from a spectrum transformed along y."""
+        full = np.zeros((len(along_y), self._texels), np.complex64)
         full[:, self._columns] = along_y
         return np.fft.ifft(full, axis=1)
 
@@ -131,11 +137,33 @@ class TileSynthesis:
 
         Channels are the slopes along x and along y of the longer band, then of the shorter one.
         """
-        for number, field in enumerate(self._fields):
-            slopes = field.image(time)
-            out[:, :, 2 * number] = slopes.real
-            out[:, :, 2 * number + 1] = slopes.imag
-        out[:, :, 2 * len(self._fields) :] = 0.0
+        texels, fields = self.tile.texels, self._fields
+        spectrum = np.zeros((texels, sum(field.column_count for field in fields)), np.complex64)
+        spectra = np.split(spectrum, np.cumsum([field.column_count for field in fields])[:-1], axis=1)
+        for field, own in zip(fields, spectra, strict=True):
+            field.add_spectrum(time, own)
+
+        def transform_along_y(columns):
+            spectrum[:, columns] = np.fft.ifft(spectrum[:, columns], axis=0)
+
+        def transform_along_x(rows):
+            for number, (field, own) in enumerate(zip(fields, spectra, strict=True)):
+                slopes = field.along_x(own[rows])
+                out[rows, :, 2 * number] = slopes.real
+                out[rows, :, 2 * number + 1] = slopes.imag
+            out[rows, :, 2 * len(fields) :] = 0.0
+
+        in_threads(transform_along_y, line_pieces(spectrum.shape[1], texels))
+        in_threads(transform_along_x, line_pieces(texels, texels))
+
+
+def line_pieces(lines: int, texels: int) -> list[slice]:
+    """So many rows or columns of so many texels each, in pieces that threads take."""
+    return even_slices(lines, _TEXELS_AT_A_TIME / texels)
+
+
+_TEXELS_AT_A_TIME = 1 << 17
+"""In a thread's turn: complex numbers that mostly stay in a core's cache from one step to the next."""
 
 
 def ripple_water(sea: Sea) -> Water:
