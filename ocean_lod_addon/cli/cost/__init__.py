@@ -163,7 +163,7 @@ def _price_finder(with_blender, contraction=None):
 def _measure(options, output, with_blender):
     started = time.perf_counter()
     machine = this_machine(with_blender)
-    rounds, attempts, longest = (5, 3, math.inf) if options.full else (3, 1, _LONGEST_IF_QUICK)
+    rounds, attempts, longest = (5, 5, math.inf) if options.full else (3, 1, _LONGEST_IF_QUICK)
     print(f"{machine}; matrix products by {fastest_contraction()}", flush=True)
     with _beside_an_ocean(with_blender):
         probe_started = time.perf_counter()
