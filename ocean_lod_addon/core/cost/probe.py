@@ -107,13 +107,18 @@ def measured_prices(cases: dict[str, list]) -> dict[str, tuple[float, ...]]:
     From small to large, stage after stage, so that each finds the caches about as a frame of its size leaves them.
     """
     everything = [(stage, work, run) for stage, pairs in cases.items() for work, run in pairs]
-    everything.sort(key=lambda case: case[1].vertices + case[1].normals + case[1].texels + case[1].shared_texels)
+    everything.sort(key=lambda case: _size(case[1]))
     seconds = typical_seconds([run for _, _, run in everything])
     prices = {}
     for stage in cases:
         own = [(work, taken) for (name, work, _), taken in zip(everything, seconds, strict=True) if name == stage]
         prices[stage] = fit_prices(stage, [work for work, _ in own], [taken for _, taken in own])
     return prices
+
+
+def _size(work):
+    """About as the bytes that a case touches."""
+    return work.vertices + work.normals + work.texels + work.shared_texels
 
 
 class _Surface:

@@ -41,7 +41,7 @@ class Work:
     foam_floats      numbers that they write
     foam_products    how many products they take
     foam_instants    numbers that are looked through for foam, and those that come of it
-    foam_shared      as for normals
+    foam_shared      1 if so many are shared out to cores, 0 if one takes them all
     foam_lines       lines of the cache that this touches: those of a vertex lie side by side, and are taken one by
                      one
     """
@@ -192,10 +192,13 @@ def is_shared(vertices: int, columns: int = 1) -> float:
 
 def ripple_work(images) -> dict[str, float]:
     """The counts of writing these images (ripples.layout.Tile), by their names in `Work`."""
-    texels = {False: 0.0, True: 0.0}
-    for image in images:
-        texels[len(line_pieces(image.texels, image.texels)) > 1] += image.texels**2 * len(image.bands)
-    return {"texels": texels[False], "shared_texels": texels[True], "images": float(len(images))}
+    texels = np.array([image.texels**2 * len(image.bands) for image in images], float)
+    shared = np.array([len(line_pieces(image.texels, image.texels)) > 1 for image in images], bool)
+    return {
+        "texels": float(texels[~shared].sum()),
+        "shared_texels": float(texels[shared].sum()),
+        "images": float(len(images)),
+    }
 
 
 def _images(ocean):

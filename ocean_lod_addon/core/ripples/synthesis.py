@@ -102,7 +102,7 @@ class _BandField:
         """Columns of the lattice that have waves."""
         return len(self._columns)
 
-    def add_spectrum(self, time: float, spectrum: np.ndarray) -> None:
+    def fill_spectrum(self, time: float, spectrum: np.ndarray) -> None:
         """Fill zeros of (texels, columns) complex64 at `time` in s: rows j, and the columns i that have waves."""
         phase = self._waves.phase_at(time).astype(np.float32)
         wave = self._coefficient * (np.cos(phase) + 1j * np.sin(phase))
@@ -141,7 +141,7 @@ class TileSynthesis:
         spectrum = np.zeros((texels, sum(field.column_count for field in fields)), np.complex64)
         spectra = np.split(spectrum, np.cumsum([field.column_count for field in fields])[:-1], axis=1)
         for field, own in zip(fields, spectra, strict=True):
-            field.add_spectrum(time, own)
+            field.fill_spectrum(time, own)
 
         def transform_along_y(columns):
             spectrum[:, columns] = np.fft.ifft(spectrum[:, columns], axis=0)
