@@ -41,8 +41,8 @@ _PATIENCE, _LEAST = 0.01, 2
 
 _FRAME = 1.0 / 24.0
 
-_RIPPLES = (("256", 4), ("512", 1), ("1024", 1))
-"""(texels, images at most)."""
+_RIPPLES = (("256", 4), ("512", 2), ("1024", 2))
+"""(texels, images at most): several, as those of a frame push each other out of the caches."""
 
 _NO_RIPPLES = Ripples(kind="off")
 _NORMALS = (1 << 14, 1 << 17, 5 << 16)
@@ -129,7 +129,8 @@ class _Surface:
         ocean = Ocean(Sea(wave_count=count), grid, ripples=_NO_RIPPLES, foam=settings)
         waves = discretise(ocean.sea, grid.shortest_wavelength)
         self._kernel = FrameKernel(grid, waves, contraction)
-        self._whitecaps = Whitecaps(settings, ocean.sea, grid, waves)
+        # Of no coverage: what foam begins at need not be found, and to look for it takes as long.
+        self._whitecaps = Whitecaps(replace(settings, coverage=0.0), ocean.sea, grid, waves)
         self._multiply = CONTRACTIONS[contraction].multiply
         self._anchors = np.zeros((levels, 2))
         past = self._whitecaps.block

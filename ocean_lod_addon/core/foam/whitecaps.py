@@ -142,8 +142,8 @@ class Whitecaps:
         variance = self._sea_variance
         count = self._grid.vertex_count
         if _variance(self.breaking, self._waves) < _SMALLEST_VARIANCE or self.coverage == 0.0:
-            nothing = np.zeros(count, np.float32)
-            return _Vertices(nothing, nothing, nothing, nothing + np.float32(self.coverage))
+            gain, offset, fade = np.full((3, count), 0.0, np.float32)
+            return _Vertices(gain, offset, fade, np.full(count, self.coverage, np.float32))
         energy = 0.5 * (self.breaking * self._waves.amplitude) ** 2
         share = resolved_sums(self._grid, self._waves, (energy / variance)[:, None])[:, 0]
         u = np.clip((share - _FADED_AT) / (_WHOLE_FROM - _FADED_AT), 0.0, 1.0)
