@@ -21,7 +21,7 @@ from ..ripples.spectrum import ripple_spectrum
 from ..ripples.synthesis import tile_syntheses
 from ..sea import Sea
 from .model import CostModel, fit_prices
-from .work import Work, is_shared, ripple_work, work_of
+from .work import Work, ripple_work, work_of
 
 _BOTH = (POSITION, TANGENTS)
 _PLANES = (
@@ -45,7 +45,6 @@ _RIPPLES = (("256", 4), ("512", 2), ("1024", 2))
 """(texels, images at most): several, as those of a frame push each other out of the caches."""
 
 _NO_RIPPLES = Ripples(kind="off")
-_NORMALS = (1 << 14, 1 << 17, 5 << 16)
 
 _NOTHING = Work(*[0.0] * len(fields(Work)))
 
@@ -90,7 +89,7 @@ def surface_cases(contraction: str | None = None) -> dict[str, list]:
     return {
         "factors": [(surface.work, surface.form_factors) for surface in surfaces],
         "products": [(surface.work, surface.multiply) for surface in surfaces],
-        "normals": [_normals_case(count) for count in _NORMALS],
+        "normals": [(surface.work, surface.find_normals) for surface in surfaces if surface.work.normals],
         "foam_products": [(surface.work, surface.multiply_past) for surface in surfaces],
         "foam": [(surface.work, surface.find_foam) for surface in surfaces],
     }
@@ -140,6 +139,7 @@ class _Surface:
         self._columns, self._past = self._outputs[past], (past,)
         self._present = blocks
         self._foam = np.zeros(grid.vertex_count, np.float32)
+        self._normals = np.zeros((grid.vertex_count, 3), np.float32)
         self.work = work_of(ocean, waves, blocks, contraction)
         self.form_factors(0.0)
 
@@ -151,6 +151,10 @@ class _Surface:
         """The columns of the waves."""
         self._fill(self._present)
 
+    def find_normals(self, _time):
+        """Those of the columns of tangents."""
+        surface_normals(self._outputs[TANGENTS], self._normals)
+
     def multiply_past(self, _time):
         """Those of all instants of foam."""
         self._fill(self._past)
@@ -161,13 +165,6 @@ class _Surface:
     def find_foam(self, _time):
         """The foam in them."""
         self._whitecaps.foam(self._columns, self._foam)
-
-
-def _normals_case(count):
-    tangents = np.random.Generator(np.random.PCG64(0)).random((count, TANGENTS.columns), np.float32)
-    out = np.empty((count, 3), np.float32)
-    work = replace(_NOTHING, normals=float(count), normals_shared=is_shared(count))
-    return work, lambda _time: surface_normals(tangents, out)
 
 
 def _ripples_case(ripples, most, show):

@@ -109,7 +109,7 @@ def work_of(
         levels=float(grid.levels),
         factor_terms=float(kinds_of_left * _factor_terms(grid, waves, visible)),
         vertices=vertices,
-        normals_shared=is_shared(grid.vertex_count),
+        normals_shared=_is_shared(grid.vertex_count),
         normals=vertices if TANGENTS in blocks else 0.0,
         vectors=len(blocks) + (_FOAM_VECTORS if instants else 0.0),
         foam_multiplications=before.multiplications,
@@ -117,7 +117,7 @@ def work_of(
         foam_floats=before.floats,
         foam_products=before.products,
         foam_instants=(instants + 1) * vertices if instants else 0.0,
-        foam_shared=is_shared(grid.vertex_count, max(instants, 1)),
+        foam_shared=_is_shared(grid.vertex_count, max(instants, 1)),
         foam_lines=instants * vertices * min(instants / _NUMBERS_IN_LINE, 1.0),
         **ripple_work(_images(ocean)),
     )
@@ -185,7 +185,7 @@ def _factor_terms(grid, waves, visible):
     return np.dot(lines, _level_waves(grid, waves)[0])
 
 
-def is_shared(vertices: int, columns: int = 1) -> float:
+def _is_shared(vertices: int, columns: int = 1) -> float:
     """Whether so many vertices with so many columns each are shared out to cores, 0 or 1."""
     return float(len(shares(vertices, columns)) > 1)
 
