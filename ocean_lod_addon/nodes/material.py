@@ -73,6 +73,11 @@ def find_material(name: str):
     return min(made_by_us, key=lambda material: (material.name != name, material.name), default=None)
 
 
+def is_our_water(material: bpy.types.Material | None) -> bool:
+    """Whether a material was made by us and still has the water's node: without it, it is the artist's own."""
+    return material is not None and MATERIAL_KEY in material and NODE_NAME in material.node_tree.nodes
+
+
 def ensure_material(name: str, settings: MaterialSettings) -> bpy.types.Material:
     """The ocean material called `name`, showing `settings`; made if there is none, else changed in place.
 

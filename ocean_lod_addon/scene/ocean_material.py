@@ -8,7 +8,7 @@ from ..core.roughness import roughening_system
 from ..core.sea import Sea
 from ..core.wind import COX_MUNK_HEIGHT, wind_at_height
 from ..nodes.foam_material import follow_sun
-from ..nodes.material import MATERIAL_KEY, ensure_material, find_material, set_sun, set_wind
+from ..nodes.material import MATERIAL_KEY, ensure_material, find_material, is_our_water, set_sun, set_wind
 from ..nodes.scene_sun import claim_sun, is_claimed, release_sun, scene_sun
 from . import properties
 
@@ -39,8 +39,8 @@ def settle_sun(scene, oceans) -> None:
 
 
 def own_materials(ob) -> list:
-    """The materials of an ocean that were made by this extension."""
-    return [material for material in ob.data.materials if material is not None and MATERIAL_KEY in material]
+    """The materials of an ocean that were made by this extension, and still have its water."""
+    return [material for material in ob.data.materials if is_our_water(material)]
 
 
 def own_material(ob):

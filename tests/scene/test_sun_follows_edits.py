@@ -8,6 +8,7 @@ import pytest
 
 import ocean_lod_addon
 from ocean_lod_addon.nodes.material import NODE_NAME
+from ocean_lod_addon.scene import ocean_object
 from tests.fresh_ocean import fresh_ocean
 
 
@@ -51,7 +52,7 @@ def test_what_the_artist_does_to_a_claimed_sun_stays(ocean):
     assert lamp.data.specular_factor == 0.5
 
 
-@pytest.mark.parametrize("how", ["deleted", "given another material"])
+@pytest.mark.parametrize("how", ["deleted", "given another material", "given another shader"])
 def test_the_sun_is_given_back_with_the_last_ocean(ocean, how):
     lamp = add_sun()
     second = ocean.copy()
@@ -61,10 +62,30 @@ def test_the_sun_is_given_back_with_the_last_ocean(ocean, how):
     assert lamp.data.specular_factor == 0.0
     if how == "deleted":
         bpy.data.objects.remove(ocean)
+    elif how == "given another shader":
+        nodes = ocean.data.materials[0].node_tree.nodes
+        nodes.remove(nodes[NODE_NAME])
     else:
         ocean.data.materials[0] = bpy.data.materials.new("Mine")
     bpy.context.view_layer.update()
     assert lamp.data.specular_factor == 0.75
+
+
+def test_an_ocean_whose_water_was_taken_out_of_its_material_still_moves(ocean, capfd):
+    """A material with nodes of the artist's own is theirs: nothing is said, and nothing stands still."""
+    scene = bpy.context.scene
+    nodes = ocean.data.materials[0].node_tree.nodes
+    nodes.remove(nodes[NODE_NAME])
+    add_sun()
+    scene.frame_set(1)
+    before = [vertex.co.copy() for vertex in ocean.data.vertices]
+    scene.frame_set(12)
+    assert before != [vertex.co for vertex in ocean.data.vertices]
+    ocean.ocean_lod.foam.coverage = 2.0
+    ocean.ocean_lod.ripples.kind = "off"
+    ocean.ocean_lod.material.see_through = not ocean.ocean_lod.material.see_through
+    assert "Traceback" not in "".join(capfd.readouterr())
+    assert not ocean_object.problem(ocean)
 
 
 def test_another_scene_without_an_ocean_does_not_take_a_shared_sun_away(ocean):
