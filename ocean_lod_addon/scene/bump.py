@@ -54,7 +54,7 @@ def update(ob, surface: Surface, time: float) -> None:
     if bump is None:
         return
     for material in ob.data.materials:
-        if material is not None and MATERIAL_KEY in material and RIPPLES_NODE_NAME in material.node_tree.nodes:
+        if material is not None and MATERIAL_KEY in material and is_shown(material):
             images = find_images(material[MATERIAL_KEY], len(bump.layout.tiles))
             if fit(images, bump.layout):
                 write_images(images, bump, time)

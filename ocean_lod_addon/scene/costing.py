@@ -26,7 +26,7 @@ from ..core.sea import Sea
 from . import mesh as mesh_arrays
 from . import ocean_object, placing, planning, properties
 from .fresh_data import fresh_data
-from .ripple_images import IMAGE_KEY
+from .ripple_images import IMAGE_KEY, write_pixels
 
 _PROBED = (Grid(cells=64, levels=8), Grid(cells=128, levels=8))
 """The planes of meshes that are measured in Blender, each without normals and with them."""
@@ -68,12 +68,7 @@ def price_cases():
 
 def _shown_image(texels):
     image = bpy.data.images.new("probe", texels, texels, alpha=True, float_buffer=True, is_data=True)
-
-    def show(pixels):
-        image.pixels.foreach_set(pixels.ravel())
-        image.update_tag()
-
-    return show
+    return lambda pixels: write_pixels(image, pixels)
 
 
 def _blender_cases():

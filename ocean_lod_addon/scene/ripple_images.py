@@ -71,5 +71,10 @@ def write_images(images: list, bump: Bump, time: float) -> None:
     for number, (tile, image) in enumerate(zip(bump.layout.tiles, images, strict=True)):
         pixels = np.empty((tile.texels, tile.texels, 4), np.float32)
         bump.image(number, time, pixels)
-        image.pixels.foreach_set(pixels.ravel())
-        image.update_tag()
+        write_pixels(image, pixels)
+
+
+def write_pixels(image, pixels: np.ndarray) -> None:
+    """Show `pixels`, (texels, texels, 4) float32, in an image of that size."""
+    image.pixels.foreach_set(pixels.ravel())
+    image.update_tag()

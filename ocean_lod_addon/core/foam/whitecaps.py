@@ -142,6 +142,8 @@ class Whitecaps:
         variance = self._sea_variance
         count = self._grid.vertex_count
         if _variance(self.breaking, self._waves) < _SMALLEST_VARIANCE or self.coverage == 0.0:
+            # Three arrays, not one under three names: such foam stands for any in the probe of the cost model, and
+            # takes as long only if it goes over as much memory.
             gain, offset, fade = np.full((3, count), 0.0, np.float32)
             return _Vertices(gain, offset, fade, np.full(count, self.coverage, np.float32))
         energy = 0.5 * (self.breaking * self._waves.amplitude) ** 2
